@@ -4,20 +4,22 @@ from __future__ import annotations
 
 import os
 import sys
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.cli import boundary, severities
 from orchestra.cli.inputs import as_errors
 from orchestra.cli.leaving import contained
-from orchestra.cli.parser import CommandParser
+from orchestra.cli.plain import plain
 from orchestra.cli.problems.formats import FORMATS
 from orchestra.errors import Severity, UsageError
 from orchestra.fields import replace
 
 if TYPE_CHECKING:
     from argparse import Namespace
+    from collections.abc import Sequence
 
     from orchestra.cli.checking import Checked
+    from orchestra.cli.parser import CommandParser
 
 _EPILOG = """\
 A file is checked whatever it is called. In a folder, and the folders below it, these are checked: files whose name
@@ -33,7 +35,20 @@ _NOTES: Final = ("brief", "all", "none")
 
 def parser() -> CommandParser:
     """Return what the command understands."""
+    # Slow, and of no use where the options are plain.
+    from orchestra.cli.parser import CommandParser  # noqa: PLC0415
+
     made = CommandParser("check", "Find what is wrong in launch files and parameter files.", _EPILOG)
+    _add_to(made)
+    return made
+
+
+def read(words: Sequence[str]) -> Any:  # noqa: ANN401 - what argparse makes of them
+    """Return the options that words are. Raises `UsageError`, or `SystemExit` after `--help`."""
+    return plain(words, _add_to) or parser().read(words)
+
+
+def _add_to(made: Any) -> None:  # noqa: ANN401 - argparse's parser, or what stands for it
     made.add_argument(
         "words",
         nargs="*",
@@ -62,7 +77,6 @@ def parser() -> CommandParser:
         metavar="SECONDS",
         help="how long code of one file may take (default: 120)",
     )
-    return made
 
 
 def _number(word: str) -> int:
@@ -104,7 +118,7 @@ def run(options: Namespace) -> int:
     found, identity = gathered(places(paths, InstalledPackages(os.environ)), jobs, cache=cache)
     inputs = replace(inputs_from(words, environment=os.environ), severity=severities.given(options))
     manner = Manner(jobs, options.time_limit, cache, options.strict, identity)
-    with contained():
+    with contained(inheriting=True):
         checked = check(found, inputs, manner)
     problems = as_errors(checked.problems) if options.strict else checked.problems
     if options.notes == "none":

@@ -5,8 +5,8 @@ Rejected: to remove it in the handler. What there is to remove, and to end, is k
 
 from __future__ import annotations
 
+import _signal as signal  # type: ignore[import-not-found] # `signal` makes enumerations, which takes longer than this
 import os
-import signal
 from contextlib import ExitStack, contextmanager
 from typing import TYPE_CHECKING, Final
 

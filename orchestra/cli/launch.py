@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from orchestra.cli import boundary, inputs, run_options
-from orchestra.cli.plain import Unasked, are_plain
+from orchestra.cli.plain import plain
 from orchestra.cli.problems.formats import FORMATS
 from orchestra.cli.remembered import NO_CACHE
 
@@ -36,11 +36,7 @@ def parser() -> CommandParser:
 
 def read(words: Sequence[str]) -> Any:  # noqa: ANN401 - what argparse makes of them
     """Return the options that words are. Raises `UsageError`, or `SystemExit` after `--help`."""
-    if not are_plain(words):
-        return parser().read(words)
-    unasked = Unasked()
-    _add_to(unasked)
-    return unasked.options(words)
+    return plain(words, _add_to) or parser().read(words)
 
 
 def _add_to(made: Any) -> None:  # noqa: ANN401 - argparse's parser, or what stands for it

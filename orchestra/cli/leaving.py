@@ -13,33 +13,43 @@ if TYPE_CHECKING:
 
 
 @contextmanager
-def contained() -> Iterator[None]:
-    """Kill the processes that have been started meanwhile and are still there, and those that they have started."""
+def contained(*, inheriting: bool = False) -> Iterator[None]:
+    """Kill the processes that have been started meanwhile and are still there, and those that they have started.
+
+    Where code runs in this process it inherits what they leave behind (`resolve.python.isolation`); `inheriting`: it
+    does so all the time, as it has others in which code runs.
+    """
     # Here, because only commands that read launch files need it.
     from orchestra.resolve.command_reaper import children, set_subreaper  # noqa: PLC0415
     from orchestra.witness.observing import observer  # noqa: PLC0415
 
     with observer().aside():  # it decides nothing about a plan that is to be kept
         known = set(children())
-        before = set_subreaper(1)
+        before = set_subreaper(1) if inheriting else None
     try:
         yield
     finally:
         with observer().aside():
             _end_all_but(known)
-            set_subreaper(before)
+            if before is not None:
+                set_subreaper(before)
 
 
 def _end_all_but(known: set[int]) -> None:
-    from orchestra.resolve.command_reaper import children, kill  # noqa: PLC0415 - as above
+    from orchestra.resolve.command_reaper import children, kill, set_subreaper  # noqa: PLC0415 - as above
 
+    before = None
     while left := [child for child in children() if child not in known]:
+        if before is None:  # what they have started is this process's as soon as they are gone
+            before = set_subreaper(1)
         for child in left:
             with suppress(ProcessLookupError):  # user code has waited for it since
                 kill(child)
         for child in left:
             with suppress(ChildProcessError):  # as above
                 os.waitpid(child, 0)
+    if before is not None:
+        set_subreaper(before)
 
 
 def threads() -> set[Thread]:

@@ -4,18 +4,19 @@ from __future__ import annotations
 
 import os
 import sys
-from argparse import Namespace
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.cli import boundary, colour, inputs
 from orchestra.cli.answered import Watch, give
-from orchestra.cli.parser import CommandParser
+from orchestra.cli.plain import plain
 from orchestra.cli.remembered import NO_CACHE
 from orchestra.errors import DescriptionError, UsageError
 
 if TYPE_CHECKING:
+    from argparse import Namespace
     from collections.abc import Sequence
 
+    from orchestra.cli.parser import CommandParser
     from orchestra.cli.planning.sources import Made
 
 
@@ -38,7 +39,15 @@ subjects of --explain: NODE, NODE.PARAMETER, NODE:TOPIC, NODE$VARIABLE
 
 def parser() -> CommandParser:
     """Return what the command understands."""
+    # Slow, and of no use where the options are plain.
+    from orchestra.cli.parser import CommandParser  # noqa: PLC0415
+
     made = CommandParser("plan", "Show what a launch file would start, and start nothing.", _EPILOG)
+    _add_to(made)
+    return made
+
+
+def _add_to(made: Any) -> None:  # noqa: ANN401 - argparse's parser, or what stands for it
     made.add_argument("--format", choices=FORMATS, default="text", help="how to show it (default: text)")
     made.add_argument(
         "--node",
@@ -59,12 +68,11 @@ def parser() -> CommandParser:
     made.add_argument("--exit-code", action="store_true", help="with --diff: end with 1 where they differ")
     made.add_argument(NO_CACHE, action="store_true", help="make the plan, also where nothing has changed")
     inputs.add_to(made)
-    return made
 
 
-def read(words: Sequence[str]) -> Namespace:
+def read(words: Sequence[str]) -> Any:  # noqa: ANN401 - what argparse makes of them
     """Return the options that words are, and the words. Raises `UsageError`, or `SystemExit` after `--help`."""
-    options = parser().read(words)
+    options: Any = plain(words, _add_to) or parser().read(words)
     options.given = tuple(words)
     return options
 
@@ -124,6 +132,8 @@ def _check(options: Namespace) -> None:
 
 def _compare(options: Namespace, made: Made, paint: colour.Paint) -> int:
     """Print what lies between the plan and the one behind `--diff`, whose problems point into its own words."""
+    from argparse import Namespace  # noqa: PLC0415 - as above, and it is imported where there is a --diff
+
     from orchestra.cli.planning.comparison import compared  # noqa: PLC0415 - only this needs it
 
     try:

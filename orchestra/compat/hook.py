@@ -13,7 +13,6 @@ from contextlib import contextmanager
 from importlib.machinery import ModuleSpec, PathFinder, SourceFileLoader
 from importlib.util import find_spec
 from itertools import filterfalse
-from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING, Any, Final
 
@@ -29,7 +28,8 @@ else:  # nobody asks for what they add, and they import some thirty modules
     Loader = MetaPathFinder = object
 
 _INSTALLED: Final = (*PYTHON, *INSTALLED)
-SERVED: Final = frozenset(entry.name for entry in Path(__file__).parent.iterdir() if entry.is_dir())
+_FOLDER: Final = __file__.rpartition("/")[0]
+SERVED: Final = frozenset(entry.name for entry in os.scandir(_FOLDER) if entry.is_dir())
 _ROOM: Final = __name__.rpartition(".")[0]
 _OURS: Final = f"{__name__.partition('.')[0]}."
 _served: dict[str, ModuleType] = {}  # by the names under which they have been imported in this process

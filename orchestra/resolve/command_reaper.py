@@ -13,17 +13,14 @@ Every import here delays the command, so there are few: json and typing alone wo
 
 from __future__ import annotations
 
-import ctypes
+import _signal as signal  # type: ignore[import-not-found] # `signal` makes enumerations, which takes longer than this
 import marshal
 import os
-import select
-import signal
 import sys
 
 _PR_SET_PDEATHSIG = 1
 _PR_SET_CHILD_SUBREAPER, _PR_GET_CHILD_SUBREAPER = 36, 37
 _CONTROL = 0
-_LIBC = ctypes.CDLL(None, use_errno=True)
 _NOT_STARTED = 127
 
 
@@ -66,6 +63,8 @@ def _become(argv: list[str], environment: dict[str, str], report: int) -> None:
 
 def _status(leader: int) -> int | None:
     """Wait for the command; the negative signal number where one ended it, None where the caller let go first."""
+    import select  # noqa: PLC0415 - only here, and not where this is imported
+
     ended = os.pidfd_open(leader)
     poll = select.poll()
     poll.register(ended, select.POLLIN)
@@ -126,6 +125,8 @@ def kill(child: int) -> None:
 
 def set_subreaper(value: int) -> int:
     """Let this process inherit the orphans below it (1) or not (0); return what was so before."""
+    import ctypes  # noqa: PLC0415 - slow, and not needed by all who import this
+
     before = ctypes.c_int()
     _prctl(_PR_GET_CHILD_SUBREAPER, ctypes.byref(before))
     _prctl(_PR_SET_CHILD_SUBREAPER, value)
@@ -138,7 +139,9 @@ def end_with_parent() -> None:
 
 
 def _prctl(option: int, value: object) -> None:
-    if _LIBC.prctl(option, value, 0, 0, 0) != 0:
+    import ctypes  # noqa: PLC0415 - as above
+
+    if ctypes.CDLL(None, use_errno=True).prctl(option, value, 0, 0, 0) != 0:
         raise OSError(ctypes.get_errno(), f"prctl {option}")
 
 

@@ -81,7 +81,7 @@ def _inheriting() -> Iterator[Callable[[], bool]]:
     Only children that were there before are told apart from it. So nothing may start others meanwhile, and nothing
     does: descriptions are evaluated one step after the other.
     """
-    from orchestra.resolve.command_reaper import children, set_subreaper  # noqa: PLC0415 - it takes ctypes
+    from orchestra.resolve.command_reaper import children, set_subreaper  # noqa: PLC0415 - few run any
 
     spared = set(children())
     before = set_subreaper(1)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import signal
 from typing import TYPE_CHECKING, cast
 
 from orchestra.description.parts import POLICIES
@@ -97,6 +96,8 @@ def stop(action: Running, run: Resolution) -> Stop | Poison | None:
 
 def _signal(value: Value, run: Resolution) -> str | Poison:
     """Return the full name of a signal that is written with or without SIG, or as a number."""
+    import signal  # noqa: PLC0415 - half a millisecond, and few say which
+
     text = value.text.strip().upper()
     names = {item.name for item in signal.Signals}
     if text.isdigit() and int(text) in {item.value for item in signal.Signals}:
