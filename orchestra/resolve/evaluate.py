@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from orchestra.description.text import Part, Pieces, Template
-    from orchestra.resolve.context import Context, Evaluated, Value
+    from orchestra.resolve.context import Context, Evaluated, Read, Value
 
 _VARIABLE: Final = "var"
 _FOLDER: Final = "dirname"
@@ -97,16 +97,27 @@ def _matched(template: MatchedTemplate, context: Context) -> Evaluated:
     text = template.constant
     if text is not None:
         return matched_value(text, template, context.included_from)
-    pieces, file = template.pieces, context.file
-    names = None if pieces is None else pieces.variables
-    if names is None and pieces is not None and file is not None:
-        names = pieces.beside
-    known = None if names is None else context.variables.known(names)
-    if pieces is None or known is None:
+    known = plainly(template, context)
+    if known is None:
         return _concatenated(template, context)
-    texts, reads = known
-    made = pieces.filled(texts) if pieces.variables is not None else _in_folder(pieces, file or "", texts)
-    return matched_value(made, template, context.included_from, reads)
+    return matched_value(known[0], template, context.included_from, known[1])
+
+
+def plainly(template: MatchedTemplate, context: Context) -> tuple[str, tuple[Read, ...]] | None:
+    """Return what variables and the folder make of a text, and what is noted of them; None for all other texts.
+
+    Neither is anything noted where there is something to tell of a variable.
+    """
+    pieces, file = template.pieces, context.file
+    if pieces is None:
+        return None
+    if pieces.variables is not None:
+        known = context.variables.known(pieces.variables)
+        return None if known is None else (pieces.filled(known[0]), known[1])
+    if pieces.beside is None or file is None:
+        return None
+    known = context.variables.known(pieces.beside)
+    return None if known is None else (_in_folder(pieces, file, known[0]), known[1])
 
 
 def _in_folder(pieces: Pieces, file: str, values: Sequence[str]) -> str:

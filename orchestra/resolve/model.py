@@ -3,16 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any, Literal, TypeAlias
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 from orchestra.dataclass import dataclass, maker
+from orchestra.description.text import Constant, Items, Template, span_of
 from orchestra.fields import field
-from orchestra.location import Location, Span
+from orchestra.load.offsets import is_on_one_line
+from orchestra.location import Location, Span, new_location
 from orchestra.resolve.awaited import ResolvedAlive, ResolvedReady
 from orchestra.resolve.context import Read, Value
 from orchestra.resolve.rcl.sections import Entry, Section
 from orchestra.resolve.reactions import ResolvedTrigger
 from orchestra.values import Condition, Limits, ParameterValue, Restart, Stop
+
+if TYPE_CHECKING:
+    from orchestra.description.entity import Entity
+    from orchestra.description.parts import Param
 
 DependencyKind: TypeAlias = Literal["node", "process", "label", "action"]
 Kind: TypeAlias = Literal["process", "node", "lifecycle_node", "container"]
@@ -34,12 +40,21 @@ class ResolvedArgument:
     given: bool = False
 
 
+class _Written:
+    """What an entity and the includes that led to it say, where the places of something are not worked out yet."""
+
+    __slots__ = ("_written",)
+
+    _written: tuple[Param, tuple[Span, ...]]
+
+
 @dataclass(frozen=True, slots=True)
-class InlineParameter:
+class InlineParameter(_Written):
     """A parameter written in the description; `everywhere` where it was set for all nodes of a scope.
 
     `keys` are the names it is written with, from the outermost level inwards: each as far as it goes, and its place.
-    `items` are the places of a list's items, none where they are not known.
+    `items` are the places of a list's items, none where they are not known. Few places are ever asked for: one that
+    is made by `plainly` gets them when the first is.
     """
 
     name: str
@@ -49,6 +64,30 @@ class InlineParameter:
     keys: tuple[tuple[str, Location], ...] = ()
     items: tuple[Location, ...] = ()
     through: tuple[Read, ...] = field(default=(), compare=False, repr=False)
+
+    if not TYPE_CHECKING:  # for type checkers there are the fields above and no others
+
+        def __getattr__(self, name: str) -> object:
+            if name not in ("items", "keys", "location"):
+                raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
+            param, chain = self._written
+            items = param.value if isinstance(param.value, Items) else ()
+            object.__setattr__(self, "location", place_of(param.value, param, chain))
+            object.__setattr__(self, "keys", ((self.name, param.name.location(chain)),))
+            object.__setattr__(self, "items", tuple([item.location(chain) for item in items]))
+            return object.__getattribute__(self, name)
+
+
+def place_of(
+    value: Template | Constant | tuple[Template | Constant, ...] | None,
+    param: Entity,
+    chain: tuple[Span, ...],
+) -> Location:
+    """Return where a value stands: all of a list that is on one line, else its first item."""
+    if isinstance(value, Template):
+        return value.location(chain)
+    at = value.span if isinstance(value, Items) and is_on_one_line(value.span) else span_of(value or ())
+    return new_location(at or param.span, chain)
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,33 +9,32 @@ from orchestra.description.parts import VALUE_TYPES, Override
 from orchestra.description.text import (
     Constant,
     Items,
-    MatchedTemplate,
     Template,
-    Words,
     span_of,
     whole_span_of,
 )
 from orchestra.errors import Code
-from orchestra.load.offsets import is_on_one_line
-from orchestra.location import is_python, location_of, point
+from orchestra.location import is_python, point
 from orchestra.nearest import nearest
-from orchestra.resolve.attribute_values import attribute_value, retyped
 from orchestra.resolve.context import POISON, Poison, Value
-from orchestra.resolve.model import FileParameters, InlineParameter, ParameterSource, new_parameter
+from orchestra.resolve.model import (
+    InlineParameter,
+    ParameterSource,
+    new_parameter,
+    place_of,
+)
 from orchestra.resolve.parameter_files import file_parameters
 from orchestra.resolve.paths import beside
+from orchestra.resolve.plain_parameters import plainly, read_at_once
 from orchestra.resolve.rcl.odd_names import may_be_odd, odd_name
-from orchestra.resolve.rcl.surprises import of_commas, plainly
+from orchestra.resolve.rcl.surprises import of_commas
+from orchestra.resolve.rcl.surprises import plainly as said_plainly
 from orchestra.resolve.refusals import refuse_value
 from orchestra.resolve.scalars import (
     checked,
     coerced,
     differs,
-    items_alike,
-    number_held,
-    read_alike,
     upstream_value,
-    value_alike,
 )
 from orchestra.resolve.worded import look_at_paths
 from orchestra.resolve.wrong_lists import meant_as_text, odd_in_text, odd_place, united, wrong_as_a_whole
@@ -47,7 +46,7 @@ if TYPE_CHECKING:
     from orchestra.description.actions.set_parameter import SetParameter
     from orchestra.description.fields import Value as Typed
     from orchestra.description.parts import Param
-    from orchestra.location import Location, Span
+    from orchestra.location import Location
     from orchestra.resolve.resolution import Resolution
     from orchestra.values import ParameterValue
 
@@ -63,21 +62,29 @@ def parameters(
 
     A `component` takes files without sections too. Without `quotes`, a text in quotes is typed as any other.
     """
-    found: list[ParameterSource | None] = []
+    if not written:
+        return (), True
+    found: list[ParameterSource] = []
+    whole = True
     for param in written:
         if param.from_ is None:
             everywhere = isinstance(param, Override)
-            plain = _plainly(param, run, everywhere=everywhere, quotes=quotes)
-            found += (plain,) if plain else _inline(param, (), run, everywhere=everywhere, quotes=quotes)
+            plain = plainly(param, run, everywhere, quotes)
+            if plain is not None:
+                found.append(plain)
+                continue
+            items = _inline(param, (), run, everywhere=everywhere, quotes=quotes)
+            found += [item for item in items if item is not None]
+            whole = whole and None not in items
         elif param.faulty and beside(run.context.file, param.from_.raw) is None:
-            found.append(None)  # it may be no parameter at all: a remap stands where one belongs
+            whole = False  # it may be no parameter at all: a remap stands where one belongs
         else:
             substitute = param.allow_substs is not None and run.flag(param.allow_substs, default=False)
             file = file_parameters(param.from_, run, substitute=substitute is True, plain=component)
-            found.append(file if isinstance(substitute, bool) else None)
-    sound = tuple([item for item in found if item is not None])
-    files = [item for item in sound if type(item) is FileParameters]
-    return sound, len(sound) == len(found) and all(item.sound for item in files)
+            if file is not None and isinstance(substitute, bool):
+                found.append(file)
+            whole = whole and file is not None and file.sound and isinstance(substitute, bool)
+    return tuple(found), whole
 
 
 def everywhere(action: SetParameter, run: Resolution) -> list[InlineParameter | None]:
@@ -125,7 +132,7 @@ def _text(
         if constant is not None and value.quoted and quotes:
             return evaluated.text
         kept = constant is not None and quotes and value.span.file.endswith(_XML)
-        result = (attribute_value if kept else upstream_value)(evaluated.text)
+        result = _attribute_value(evaluated.text) if kept else upstream_value(evaluated.text)
     except ValueError as error:
         meant = nearest(evaluated.text, _BOOLEANS) if type_word == "bool" else None
         if meant is not None and not is_python(evaluated.location):
@@ -141,21 +148,11 @@ def _text(
     return result
 
 
-def _plainly(param: Param, run: Resolution, *, everywhere: bool, quotes: bool) -> InlineParameter | None:
-    """Return a parameter whose text everybody reads alike; None for others: `_inline` gives the same, in more time."""
-    called, written = param.name, param.value
-    if type(called) is not MatchedTemplate or type(written) is not MatchedTemplate or param.type is not None:
-        return None
-    name, text = called.constant, written.constant
-    if not name or not text or param.param is not None or may_be_odd(name):
-        return None
-    value = text if written.quoted and quotes else value_alike(text)
-    if value is None:
-        return None
-    chain = run.context.included_from
-    keys = ((name, location_of(called.matched, called.group, chain)),)
-    at = location_of(written.matched, written.group, chain)
-    return new_parameter(name, value, at, everywhere, keys)
+def _attribute_value(text: str) -> ParameterValue:
+    # Here, because nearly all attributes are read alike by everybody.
+    from orchestra.resolve.attribute_values import attribute_value  # noqa: PLC0415
+
+    return attribute_value(text)
 
 
 def _inline(
@@ -187,8 +184,8 @@ def _inline(
     if isinstance(type_word, Poison):
         return [None]
     written = param.value
-    at = run.place(written) if isinstance(written, Template) else run.at(_place_of(written) or param.span)
-    plain = _read_at_once(param, quotes=quotes)
+    at = place_of(written, param, run.context.included_from)
+    plain = read_at_once(param, quotes)
     if plain is not None:
         at_items = tuple(map(run.place, written)) if isinstance(written, Items) else ()
         return [new_parameter(name, plain, at, everywhere, keys, at_items, ())]
@@ -197,16 +194,11 @@ def _inline(
     if isinstance(value, Poison):
         return [None]
     if everywhere and not quotes and type_word is None and isinstance(written, Constant):
+        from orchestra.resolve.attribute_values import retyped  # noqa: PLC0415 - few Python files say anything for all
+
         value = retyped(value, at, run.problems)
     places = tuple(run.at(item.span) for item in written) if isinstance(written, tuple) else ()
     return [new_parameter(name, value, at, everywhere, keys, places, tuple(reads))]
-
-
-def _place_of(value: Constant | tuple[Typed, ...]) -> Span | None:
-    """Return where a value stands: all of a list that is on one line, else its first item."""
-    if isinstance(value, Items) and is_on_one_line(value.span):
-        return value.span
-    return span_of(value)
 
 
 def _warn_of_name(name: str, written: Template, run: Resolution) -> None:
@@ -215,22 +207,6 @@ def _warn_of_name(name: str, written: Template, run: Resolution) -> None:
     if found is not None:
         message = f"no node declares '{name}': {found[0]}"
         run.problems.warning(Code.SURPRISING_SCALAR, message, run.place(written), suggestion=found[1])
-
-
-def _read_at_once(param: Param | SetParameter, *, quotes: bool) -> ParameterValue | None:
-    """Return a value without a type that everybody reads alike; None where it takes a closer look."""
-    value = param.value
-    if type(value) is Constant:
-        return number_held(value.value) if param.type is None else None
-    if param.type is not None or not isinstance(value, Template):
-        return items_alike(value) if isinstance(value, Items) and param.type is None else None
-    if type(value) is MatchedTemplate:
-        text = value.constant
-        return None if not text else text if value.quoted and quotes else value_alike(text)
-    part = value.parts[0] if len(value.parts) == 1 and not value.faulty else None
-    if type(part) is not Words:
-        return None
-    return part.text if value.quoted and quotes else read_alike(part.text)
 
 
 def _constant(name: str, value: Constant, type_word: str | None, run: Resolution) -> ParameterValue | Poison:
@@ -292,7 +268,7 @@ def _warn_of_surprise(
     surprise = differs(text)
     if surprise is not None:
         quote = "'" if location.span.file.endswith(_XML) else '"'  # an attribute stands in quotes itself
-        instead = None if is_python(location) else plainly(text, value, quote if quotes else None)
+        instead = None if is_python(location) else said_plainly(text, value, quote if quotes else None)
         run.problems.warning(Code.SURPRISING_SCALAR, surprise, location, suggestion=instead)
     elif isinstance(value, str) and not is_python(location) and (found := of_commas(text)) is not None:
         run.problems.warning(Code.SURPRISING_SCALAR, found.message, location, suggestion=found.instead)

@@ -141,6 +141,7 @@ def flow(value: ParameterValue) -> str:
     return f"[{', '.join(map(_shown, value))}]" if isinstance(value, tuple) else str(value)
 
 
+@lru_cache(maxsize=2048)  # of many parameters few say what no other does
 def read_alike(text: str) -> Scalar | None:
     """Return what a text is to everybody who reads it, None where that is not plain to see."""
     number = _NUMBER.fullmatch(text)

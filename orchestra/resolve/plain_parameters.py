@@ -1,0 +1,72 @@
+"""Parameters that everybody reads alike, which most are: their places are worked out when somebody asks for one."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from orchestra.description.text import Constant, Items, MatchedTemplate, Template, Words
+from orchestra.resolve.evaluate import plainly as known_text
+from orchestra.resolve.model import InlineParameter
+from orchestra.resolve.rcl.odd_names import may_be_odd
+from orchestra.resolve.scalars import items_alike, number_held, read_alike, value_alike
+
+if TYPE_CHECKING:
+    from orchestra.description.actions.set_parameter import SetParameter
+    from orchestra.description.parts import Param
+    from orchestra.resolve.context import Read
+    from orchestra.resolve.resolution import Resolution
+    from orchestra.values import ParameterValue
+
+
+def plainly(param: Param, run: Resolution, everywhere: bool, quotes: bool) -> InlineParameter | None:
+    """Return a parameter whose value everybody reads alike; None for one that takes a closer look.
+
+    `everywhere`: it is for all nodes. Without `quotes`, a text in quotes is typed as any other.
+    """
+    called, written = param.name, param.value
+    if type(called) is not MatchedTemplate or param.type is not None or param.param is not None:
+        return None
+    name = called.constant
+    if not name or may_be_odd(name):
+        return None
+    reads: tuple[Read, ...] = ()
+    if type(written) is not MatchedTemplate:
+        value = read_at_once(param, quotes)
+    elif written.constant is None:
+        known = known_text(written, run.context)
+        if known is None or known[0][:1] == "/":  # a path may lead nowhere
+            return None
+        value, reads = value_alike(known[0]), known[1]
+    elif written.constant and not (written.quoted and quotes):
+        value = value_alike(written.constant)
+    else:
+        value = written.constant or None
+    if value is None:
+        return None
+    made: Any = _new(InlineParameter)
+    made.name = name
+    made.value = value
+    made.everywhere = everywhere
+    made.through = reads
+    made._written = param, run.context.included_from  # noqa: SLF001 - it is made here
+    parameter: InlineParameter = made
+    return parameter
+
+
+_new = object.__new__
+
+
+def read_at_once(param: Param | SetParameter, quotes: bool) -> ParameterValue | None:
+    """Return a value without a type that everybody reads alike; None where it takes a closer look."""
+    value = param.value
+    if type(value) is Constant:
+        return number_held(value.value) if param.type is None else None
+    if param.type is not None or not isinstance(value, Template):
+        return items_alike(value) if isinstance(value, Items) and param.type is None else None
+    if type(value) is MatchedTemplate:
+        text = value.constant
+        return None if not text else text if value.quoted and quotes else value_alike(text)
+    part = value.parts[0] if len(value.parts) == 1 and not value.faulty else None
+    if type(part) is not Words:
+        return None
+    return part.text if value.quoted and quotes else read_alike(part.text)
