@@ -24,11 +24,10 @@ _PATIENCE: Final = 10.0  # seconds after which a command ends though code of a l
 def heeded() -> Iterator[None]:
     """Raise `EndedError` where one of them arrives meanwhile.
 
-    More of them change nothing: timeout(1), service managers and containers send several. One that is ignored stays so:
-    that is how nohup(1) says that a command is to go on.
+    More of them change nothing, while the interpreter ends neither: timeout(1), service managers and containers send
+    several. One that is ignored stays so: that is how nohup(1) says that a command is to go on.
     """
-    own, told, lasting = os.getpid(), False, ExitStack()
-    before = {number: action for number in _ENDING if (action := signal.getsignal(number)) == signal.SIG_DFL}
+    own, told, before = os.getpid(), False, tuple(filter(_is_usual, _ENDING))
 
     def end(number: int, frame: FrameType | None) -> None:
         del frame
@@ -40,25 +39,27 @@ def heeded() -> Iterator[None]:
             return
         told = True
         error = EndedError(number)
-        lasting.enter_context(_insisting(error.status))
+        _insist(error.status)
         raise error
 
-    with lasting:
-        for number, action in before.items():
-            lasting.callback(signal.signal, number, action)
+    def leave(number: int) -> None:
+        signal.signal(number, signal.SIG_IGN if told else signal.SIG_DFL)
+
+    with ExitStack() as heeding:
+        for number in before:
+            heeding.callback(leave, number)
             signal.signal(number, end)
         yield
 
 
-@contextmanager
-def _insisting(status: int) -> Iterator[None]:
-    """End this process by and by, whatever its code does about what is raised in it."""
+def _is_usual(number: int) -> bool:
+    return bool(signal.getsignal(number) == signal.SIG_DFL)
+
+
+def _insist(status: int) -> None:
+    """End this process by and by, whatever its code does about what is raised in it, and threads that it leaves."""
     from threading import Timer  # noqa: PLC0415 - hardly ever needed
 
     last = Timer(_PATIENCE, os._exit, (status,))
     last.daemon = True
     last.start()
-    try:
-        yield
-    finally:
-        last.cancel()

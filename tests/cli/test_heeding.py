@@ -46,6 +46,20 @@ with heeding.heeded():
         except BaseException as error:
             told = error
 """
+_LEAVING = """\
+import atexit, os, signal, sys, threading, time
+from orchestra.cli import heeding
+
+heeding._PATIENCE = 0.2
+print("here", file=sys.stderr, flush=True)
+try:
+    with heeding.heeded():
+        os.kill(os.getpid(), signal.SIGTERM)
+        time.sleep(60)
+except heeding.EndedError as error:
+    LEFT
+    sys.exit(error.status)
+"""
 
 
 @contextmanager
@@ -90,6 +104,20 @@ def test_nothing_is_left_by_what_is_ended(
 def test_what_code_makes_of_it_delays_the_end_for_a_while(folder: Path) -> None:
     with _begun(folder, "-c", _STUBBORN) as (command, _):
         command.send_signal(signal.SIGTERM)
+        assert command.wait(60) == _STATUS[signal.SIGTERM]
+
+
+@pytest.mark.parametrize(
+    "left",
+    [
+        pytest.param(
+            "atexit.register(os.kill, os.getpid(), signal.SIGTERM)", id="another signal at its very end"
+        ),
+        pytest.param("threading.Thread(target=time.sleep, args=(600,)).start()", id="a thread"),
+    ],
+)
+def test_what_comes_at_its_end_changes_nothing(folder: Path, left: str) -> None:
+    with _begun(folder, "-c", _LEAVING.replace("LEFT", left)) as (command, _):
         assert command.wait(60) == _STATUS[signal.SIGTERM]
 
 
