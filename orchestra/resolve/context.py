@@ -74,20 +74,36 @@ new_read = maker(Read)
 new_value = maker(Value)
 
 
-class MatchedValue(Value):
-    """What a text comes to that stands where the group of a match does; equal to any other value that says the same.
+class LateValue(Value):
+    """A value that works out its place when somebody asks, which few do; equal to any other that says the same."""
 
-    Where most stand is never asked for.
-    """
+    __slots__ = ()
+
+    def __new__(cls, *values: Any, **named: Any) -> Value:  # type: ignore[misc] # noqa: ANN401 - any field
+        """Return an ordinary one: what is made of it with a change has values of its own."""
+        return Value(*values, **named)
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Value) or not (type(other) is Value or isinstance(other, LateValue)):
+            return NotImplemented
+        return self.text == other.text and self.location == other.location
+
+    __hash__ = Value.__hash__
+
+    def __repr__(self) -> str:
+        return repr(_ordinary(self.text, self.location, self.through, self.verbatim, self.raw))
+
+    def __reduce__(self) -> Any:  # noqa: ANN401 - what makes it, and of what
+        return _ordinary, (self.text, self.location, self.through, self.verbatim, self.raw)
+
+
+class MatchedValue(LateValue):
+    """What a text comes to that stands where the group of a match does."""
 
     __slots__ = ("included_from", "template")
 
     template: MatchedTemplate
     included_from: tuple[Span, ...]
-
-    def __new__(cls, *values: Any, **named: Any) -> Value:  # type: ignore[misc] # noqa: ANN401 - any field
-        """Return an ordinary one: what is made of it with a change has values of its own."""
-        return Value(*values, **named)
 
     @property
     def location(self) -> Location:
@@ -103,19 +119,6 @@ class MatchedValue(Value):
     def raw(self) -> str | None:
         """What stands there, where that is something else."""
         return None if self.verbatim else self.template.raw
-
-    def __eq__(self, other: object) -> bool:
-        if type(other) not in (Value, MatchedValue) or not isinstance(other, Value):
-            return NotImplemented
-        return self.text == other.text and self.location == other.location
-
-    __hash__ = Value.__hash__
-
-    def __repr__(self) -> str:
-        return repr(_ordinary(self.text, self.location, self.through, self.verbatim, self.raw))
-
-    def __reduce__(self) -> Any:  # noqa: ANN401 - what makes it, and of what
-        return _ordinary, (self.text, self.location, self.through, self.verbatim, self.raw)
 
 
 def _ordinary(

@@ -20,20 +20,20 @@ if TYPE_CHECKING:
     from orchestra.resolve.context import Value
 
 _OPTION: Final = "--log-level"
-_LEVELS: Final = ("debug", "info", "warn", "error", "fatal", "unset")
+LEVELS: Final = ("debug", "info", "warn", "error", "fatal", "unset")
 
 
 def check_levels(words: Sequence[Value], problems: Problems, *, for_ros: bool) -> None:
     """Report what is no level of logging where it stands; `for_ros` tells that all words are for rcl."""
     for word in _levels(words, for_ros=for_ros):
         level = word.text.rpartition(":=")[2]
-        if level.lower() in _LEVELS:
+        if level.lower() in LEVELS:
             continue
-        near, place = nearest(level.lower(), _LEVELS), _end_of(word, len(level))
+        near, place = nearest(level.lower(), LEVELS), _end_of(word, len(level))
         is_placed = place is not None or is_python(word.location)  # in Python the text is found later
         hint = "" if is_placed else f"; did you mean '{near}'?"
         if near is None:
-            hint = f": it is one of {', '.join(_LEVELS[:-1])}"
+            hint = f": it is one of {', '.join(LEVELS[:-1])}"
         problems.error(
             Code.MIDDLEWARE_SETTING,
             f"'{level}' is no level of logging{hint}",

@@ -16,6 +16,7 @@ from orchestra.errors import Code
 from orchestra.location import is_python
 from orchestra.nearest import nearest
 from orchestra.patterns import pattern
+from orchestra.resolve.log_levels import LEVELS
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -61,6 +62,32 @@ def check_rules(words: Sequence[Value], problems: Problems, *, for_ros: bool) ->
         message = f"'{word.text}' is no rule: behind {option} stands {OPTIONS[option]}"
         instead = f"{joined[1]}:={joined[2]}" if joined is not None else None
         problems.error(Code.BAD_VALUE, message, word.location, suggestion=instead)
+
+
+def are_known(said: Sequence[str], *, for_ros: bool) -> bool:
+    """Return whether words without blanks are plainly sound: what ROS knows, behind `--ros-args` alone."""
+    reads, option = for_ros, ""
+    for text in said:
+        if option:
+            if text[:1] == "-" or not _fits(text, option):
+                return False
+            option = ""
+        elif not reads:
+            reads = text == _FOR_ROS
+            if not reads and (text in ("--", _FILE) or ":=" in text or "ros" in text):
+                return False
+        elif text in _TAKING:
+            option = text
+        elif text not in _SWITCHES:
+            return False
+    return True
+
+
+def _fits(text: str, option: str) -> bool:
+    """Return whether a word is what an option takes."""
+    if option == "--log-level":
+        return text.lower() in LEVELS
+    return option not in OPTIONS or ":=" in text
 
 
 def _check_in_vain(words: Sequence[Value], problems: Problems) -> None:

@@ -14,7 +14,6 @@ from orchestra.resolve.bounded import with_change
 from orchestra.resolve.context import POISON, Poison, Value
 from orchestra.resolve.dependencies import dependencies
 from orchestra.resolve.environment_names import is_faulty_name, warn_of_shell
-from orchestra.resolve.exit_codes import exit_codes
 from orchestra.resolve.for_all import emulate_tty, set_for_all
 from orchestra.resolve.idle_keys import check_keys
 from orchestra.resolve.model import EnvironmentChange
@@ -98,6 +97,8 @@ def _say(action: Running, process: Any, run: Resolution) -> bool:  # noqa: ANN40
     process.required = sound(run.flag(action.required, default=on_exit is not None)) is True
     process.shutdown_on_exit = on_exit is not None
     if action.success_exit_codes is not None:
+        from orchestra.resolve.exit_codes import exit_codes  # noqa: PLC0415 - few processes have some
+
         process.success_exit_codes = sound(exit_codes(action, run))
     if action.ready is not None:
         process.ready = sound(readiness(action.ready, run))

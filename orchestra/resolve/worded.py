@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import TYPE_CHECKING, Final
 
 from orchestra.resolve.context import POISON, Poison
@@ -17,6 +18,7 @@ if TYPE_CHECKING:
 
 _SPAWNING: Final = "controller_manager"
 ARGUED: Final = frozenset({_SPAWNING, "tf2_ros"})  # packages with programs whose arguments are known
+_OF_ROS: Final = (":=", "ros", "--params-file")  # what holds none of these is not for ROS, nor meant to be
 _SETTING: Final = frozenset({"-p", "--param", "--params-file", "-r", "--remap"})
 
 
@@ -39,15 +41,13 @@ def texts(
     words = split(argv, run.context)
     if isinstance(words, Poison):
         return POISON
-    said = [word.text for word in words]
-    if for_ros is not None and "--log-level" in said:
-        # Here, because few nodes have one.
+    said = tuple([word.text for word in words])
+    if for_ros is not None and words and not _are_sound(said, for_ros):
+        # Here, because most words are as they should be.
         from orchestra.resolve.log_levels import check_levels  # noqa: PLC0415
+        from orchestra.resolve.ros_rules import check_rules  # noqa: PLC0415
 
         check_levels(words, run.problems, for_ros=for_ros)
-    if for_ros is not None and words:
-        from orchestra.resolve.ros_rules import check_rules  # noqa: PLC0415 - as above
-
         check_rules(words, run.problems, for_ros=for_ros)
     if started_by is not None:
         from orchestra.resolve.known_arguments import check_arguments  # noqa: PLC0415 - as above
@@ -61,7 +61,21 @@ def texts(
         from orchestra.resolve.parameter_arguments import settings_among  # noqa: PLC0415 - as above
 
         given += settings_among(words, run, for_ros=for_ros is True)
-    return tuple(said) or (() if isinstance(argv, tuple) else ("",))
+    return said or (() if isinstance(argv, tuple) else ("",))
+
+
+@lru_cache(maxsize=512)  # many nodes are given the same
+def _are_sound(said: tuple[str, ...], for_ros: bool) -> bool:
+    """Return whether nothing can be told of words: none holds a blank, and ROS knows all that are for it."""
+    whole = " ".join(said)
+    if whole.split() != [*said]:
+        return False
+    if not for_ros and not any(sign in whole for sign in _OF_ROS):
+        return True
+    # Here, because few nodes are given words for ROS.
+    from orchestra.resolve.ros_rules import are_known  # noqa: PLC0415
+
+    return are_known(said, for_ros=for_ros)
 
 
 def look_at_paths(words: Sequence[Value], run: Resolution, *, for_ros: bool | None = None) -> None:

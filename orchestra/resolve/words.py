@@ -12,25 +12,25 @@ import re
 from typing import TYPE_CHECKING, Final
 
 from orchestra.dataclass import dataclass
-from orchestra.description.text import MatchedTemplate, Opaque, Pieces, Words
+from orchestra.description.text import MatchedTemplate, Opaque, Words
 from orchestra.errors import Code
 from orchestra.fields import field
 from orchestra.load.offsets import Source, is_on_one_line
-from orchestra.location import Span, inside, is_within, new_location, offsets_of, stretch, stretches, whole_of
+from orchestra.location import Span, inside, is_within, offsets_of, stretch, whole_of
 from orchestra.patterns import pattern
+from orchestra.resolve.bare_words import WORD, bare_words
 from orchestra.resolve.context import POISON, Poison, Read, Value, new_value
 from orchestra.resolve.evaluate import evaluate, perform
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from orchestra.description.text import Call, Piece, Template
+    from orchestra.description.text import Call, Template
     from orchestra.resolve.context import Context
 
 _BLANKS: Final = " \t\r\n"
-# Text without quotes and backslashes, and its words.
+# Text without quotes and backslashes.
 _BARE: Final = pattern(r"""[^\\'"]*""")
-_WORD: Final = pattern(r"[^ \t\r\n]+")
 _RUN: Final = pattern(r"""[^\\'" \t\r\n]+|.""", re.DOTALL)
 
 
@@ -48,7 +48,7 @@ def split(argv: Template | tuple[Template, ...], context: Context) -> tuple[Valu
 
 def _split(template: Template, context: Context) -> tuple[Value, ...] | Poison:
     if type(template) is MatchedTemplate and _BARE.fullmatch(template.raw):
-        bare = _bare(template, context)
+        bare = bare_words(template, context)
         if bare is not None:
             return bare
     if all(type(part) is not Words or _BARE.fullmatch(part.text) for part in template.parts):
@@ -88,7 +88,7 @@ def _at_blanks(template: Template, context: Context) -> tuple[Value, ...] | Pois
         if isinstance(part, Words):
             if not (text := part.text):
                 continue
-            found = [_Word(word[0], _place(part, *word.span()), (), word[0]) for word in _WORD.finditer(text)]
+            found = [_Word(word[0], _place(part, *word.span()), (), word[0]) for word in WORD.finditer(text)]
             begins, ends = text[0] not in _BLANKS, text[-1] not in _BLANKS
         else:
             with context.variables.tracing() as reads:
@@ -108,47 +108,6 @@ def _both(word: _Word, more: _Word) -> _Word:
     """Return the word that two are without a blank between them."""
     raw = None if word.raw is None or more.raw is None else word.raw + more.raw
     return _Word(word.text + more.text, _joined(word.span, more.span), word.reads + more.reads, raw)
-
-
-def _bare(template: MatchedTemplate, context: Context) -> tuple[Value, ...] | None:
-    """Return the words of a text in which nothing escapes and only variables are substituted; else None."""
-    raw, part, chain = template.raw, stretches(template.span), context.included_from
-    if template.constant is not None:
-        return tuple(
-            new_value(found[0], new_location(part(*found.span()), chain)) for found in _WORD.finditer(raw)
-        )
-    pieces = template.pieces
-    if type(pieces) is not Pieces or pieces.variables is None:  # those of code stand at no offsets
-        return None
-    known = context.variables.known(pieces.variables)
-    if known is None:
-        return None
-    return tuple(
-        new_value(text, new_location(part(begin, end), chain), through=reads, raw=raw[begin:end])
-        for text, begin, end, reads in _words_of(pieces.pieces, *known)
-    )
-
-
-def _words_of(
-    pieces: Sequence[Piece], values: Sequence[str], reads: Sequence[Read]
-) -> list[tuple[str, int, int, tuple[Read, ...]]]:
-    """Return each word with the offsets at which it stands, and what was read for it."""
-    words: list[tuple[str, int, int, tuple[Read, ...]]] = []
-    at, number, last = 0, 0, -1
-    nothing: tuple[Read, ...] = ()
-    for piece in pieces:
-        if isinstance(piece, str):
-            found = [(word[0], at + word.start(), at + word.end(), nothing) for word in _WORD.finditer(piece)]
-            at += len(piece)
-        else:
-            found = [(values[number], at, at + piece.length, (reads[number],))]
-            at, number = at + piece.length, number + 1
-        if found and found[0][1] == last:  # behind the word before it without a blank
-            (text, begin, _, noted), (more, _, end, others) = words.pop(), found[0]
-            found[0] = (text + more, begin, end, noted + others)
-        words += found
-        last = found[-1][2] if found else -1
-    return words
 
 
 def _as_written(part: Call | Opaque) -> str | None:
