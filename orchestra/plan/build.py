@@ -3,25 +3,23 @@
 from __future__ import annotations
 
 from functools import partial
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
 from orchestra.fields import replace
 from orchestra.plan.awaited import life, readiness
 from orchestra.plan.checks.table import check_all
 from orchestra.plan.command import command
 from orchestra.plan.components import components
-from orchestra.plan.digest import digest_of
+from orchestra.plan.digest import digest
 from orchestra.plan.edges import Targets, check_cycles, dependencies
-from orchestra.plan.ids import check_names, identities
+from orchestra.plan.ids import check_names, full_names, identities, node_name
 from orchestra.plan.model import (
     VERSION,
     Argument,
-    ParameterFile,
     Plan,
     Process,
     Provenance,
     Skipped,
-    late_provenance,
     new_file,
     new_process,
 )
@@ -41,8 +39,10 @@ if TYPE_CHECKING:
     from orchestra.plan.conditions import Dependency
     from orchestra.plan.parameters import Parameters
     from orchestra.plan.warm import Warmth
-    from orchestra.resolve.model import Resolved, ResolvedComponent, ResolvedProcess
-    from orchestra.values import ParameterValue
+    from orchestra.resolve.model import Resolved, ResolvedProcess
+
+# It is made of a process when somebody asks for it.
+_DIGEST: Final[Any] = digest
 
 
 def build(
@@ -61,23 +61,26 @@ def build(
     what the checks look at, and is for nobody else: its processes cannot be started, compared or explained. Without
     `warmth` it is left open which processes can be forked (`warmed`).
     """
-    ids = identities(resolved.processes)
-    loaded = identities(resolved.components, ids)
-    nodes: list[ResolvedProcess | ResolvedComponent] = [*resolved.processes, *resolved.components]
-    new = [node for identity, node in zip((*ids, *loaded), nodes, strict=True) if identity not in known]
-    check_names(new, problems, resolved.processes)
-    targets = Targets(resolved, ids)
+    full, named = full_names(resolved.processes), list(map(node_name, resolved.components))
+    ids = identities(resolved.processes, full)
+    loaded = identities(resolved.components, named, ids)
+    every = (*ids, *loaded)
+    new = [place for place, identity in enumerate(every) if identity not in known] if known else None
+    check_names(resolved, (*full, *named), new, problems)
+    targets = Targets(resolved, ids, full)
     edges = {
-        identity: dependencies(process, identity, targets, problems)
+        identity: dependencies(process, identity, targets, problems) if process.depends_on else ()
         for identity, process in targets.process.items()
     }
     check_cycles(edges, problems)
     check_stdin(targets.process, problems)
     check_given(resolved, problems)
-    sections = Sections(resolved, frozenset(targets.full))
+    sections = Sections(resolved, frozenset(full))
     common = _Common(sections, problems, whole, warmth)
-    named = zip(targets.process.items(), targets.full, strict=True)
-    processes = [_process(process, key, full, edges[key], common) for (key, process), full in named]
+    processes = [
+        _process(process, key, name, edges[key], common)
+        for key, process, name in zip(ids, resolved.processes, full, strict=True)
+    ]
     plan = Plan(
         VERSION,
         resolved.file,
@@ -85,14 +88,18 @@ def build(
         tuple(processes),
         components(resolved, ids, loaded, sections, problems),
         triggers(resolved, ids, loaded, triggers_before),
-        tuple(
-            Skipped(item.action, item.name, item.condition, item.expression, item.value, item.location)
-            for item in resolved.skipped
-        ),
+        _skipped(resolved),
         (),
     )
     check_all(resolved, plan, problems)
     return replace(plan, problems=problems.ordered) if whole else plan
+
+
+def _skipped(resolved: Resolved) -> tuple[Skipped, ...]:
+    return tuple(
+        Skipped(item.action, item.name, item.condition, item.expression, item.value, item.location)
+        for item in resolved.skipped
+    )
 
 
 def _arguments(resolved: Resolved) -> tuple[Argument, ...]:
@@ -123,28 +130,31 @@ def _process(
     process: ResolvedProcess, identity: str, full: str | None, edges: tuple[Dependency, ...], common: _Common
 ) -> Process:
     sections, problems, whole, warmth = common
-    parameters = parameters_of(process, full, sections, problems, whole=whole)
-    check_remaps(process, problems)
-    path = path_of(identity) if parameters.is_passed and (parameters.values or parameters.files) else None
-    files = tuple([new_file(path or file.path, file.content) for file in parameters.files])
-    words, environment = command(process, path) if whole else (), environment_of(process)
+    name, namespace, remaps = process.name, process.namespace, process.remaps
     wished = None if process.warm is None else wish(process.warm)
+    parameters = parameters_of(process, full, sections, problems, whole=whole)
+    values, passed = parameters.values, parameters.passed
+    path = path_of(identity) if parameters.is_passed and (values or passed is not None) else None
+    if remaps:
+        check_remaps(process, problems)
+    words = command(process, path) if whole else ()
+    environment = environment_of(process) if process.environment else {}
     return new_process(
         id=identity,
         kind=process.kind,
         package=process.package,
         executable=process.executable,
-        name=process.name.text if process.name is not None else None,
-        namespace=process.namespace.text if process.namespace is not None else None,
+        name=None if name is None else name.text,
+        namespace=None if namespace is None else namespace.text,
         command=words,
         shell=process.shell,
         prefix=process.prefix,
         environment=environment,
         inherit_environment=process.inherit_environment,
         cwd=process.cwd,
-        parameters=parameters.values,
-        parameter_files=files,
-        remappings=tuple([(rule.source.text, rule.target.text) for rule in process.remaps]),
+        parameters=values,
+        parameter_files=() if passed is None or path is None else (new_file(path, passed),),
+        remappings=tuple([(rule.source.text, rule.target.text) for rule in remaps]) if remaps else (),
         arguments=process.arguments,
         output=process.output,
         emulate_tty=process.emulate_tty,
@@ -160,26 +170,12 @@ def _process(
         limits=process.limits,
         warm=wished if warmth is None else warmth.of(process, wished, words, environment),
         machine=None,
-        digest=_digest(process, words, environment, parameters.values, files) if whole else "",
+        digest=_DIGEST if whole else "",
         location=process.location,
-        provenance=late_provenance(partial(_provenance, process, parameters, whole=whole)),
+        provenance=partial(_provenance, process, parameters, whole),  # type: ignore[arg-type]  # made when asked for
         params_schema=None if process.params_schema is None else process.params_schema.text,
     )
 
 
-def _provenance(process: ResolvedProcess, parameters: Parameters, *, whole: bool) -> Provenance:
+def _provenance(process: ResolvedProcess, parameters: Parameters, whole: bool, _: Process) -> Provenance:
     return provenance(process, parameters) if whole else Provenance(parameters=parameters.written())
-
-
-def _digest(
-    process: ResolvedProcess,
-    words: tuple[str, ...],
-    environment: dict[str, str | None],
-    values: dict[str, ParameterValue],
-    files: tuple[ParameterFile, ...],
-) -> str:
-    around = (environment, process.inherit_environment)
-    how = (None if process.stdin is None else True, process.shell, process.limits)
-    # As the encoder of plans has them.
-    given = [{"path": file.path, "content": file.content} for file in files]
-    return digest_of(words, around, process.cwd, values, given, *how)

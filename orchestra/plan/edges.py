@@ -9,7 +9,6 @@ from orchestra.errors import Code, Problems
 from orchestra.nearest import nearest
 from orchestra.plan.absent import is_mistake
 from orchestra.plan.conditions import Dependency
-from orchestra.plan.ids import node_name
 from orchestra.resolve.names import InvalidName, expanded
 
 if TYPE_CHECKING:
@@ -27,10 +26,10 @@ _CURES: Final = {False: "a `ready`", True: "`ready: {lifecycle: active}`, say"}
 class Targets:
     """The processes of a plan by what a dependency may call them, which few descriptions have."""
 
-    def __init__(self, resolved: Resolved, ids: Sequence[str]) -> None:
+    def __init__(self, resolved: Resolved, ids: Sequence[str], full: Sequence[str | None]) -> None:
         self.resolved = resolved
         self.process = dict(zip(ids, resolved.processes, strict=True))
-        self.full = [node_name(process) for process in resolved.processes]  # of those that are nodes
+        self.full = full  # names of those that are nodes
 
     @cached_property
     def nodes(self) -> dict[str, list[str]]:
@@ -75,8 +74,6 @@ def dependencies(
     process: ResolvedProcess, identity: str, targets: Targets, problems: Problems
 ) -> tuple[Dependency, ...]:
     """Return what a process waits for. What is not there is reported, unless the process may do without it."""
-    if not process.depends_on:
-        return ()
     edges: dict[tuple[str, str], Dependency] = {}
     for written in process.depends_on:
         found = _found(written, process, targets)

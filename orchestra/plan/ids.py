@@ -12,7 +12,7 @@ from orchestra.resolve.model import ResolvedComponent, ResolvedProcess
 from orchestra.resolve.names import full_name
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Collection, Iterable, Sequence
 
     from orchestra.errors import Problems
     from orchestra.location import Location, Span
@@ -22,18 +22,37 @@ _TWICE = 2
 _TRANSFORM = "static_transform_publisher"
 
 
+def full_names(processes: Iterable[ResolvedProcess]) -> list[str | None]:
+    """Return the full names of those that are nodes, where they are known."""
+    return [
+        None
+        if process.name is None or process.kind == "process"
+        else full_name("/" if process.namespace is None else process.namespace.text, process.name.text)
+        for process in processes
+    ]
+
+
 def identities(
-    processes: Sequence[ResolvedProcess | ResolvedComponent], others: Iterable[str] = ()
+    processes: Sequence[ResolvedProcess | ResolvedComponent],
+    names: Iterable[str | None],
+    others: Collection[str] = (),
 ) -> tuple[str, ...]:
     """Return an id per process: the full node name, else namespace and label, with `#2` for repeats.
 
-    Components have ids as nodes have; `others` are ids that are given already.
+    Components have ids as nodes have; `names` are the full names, `others` are ids that are given already.
     """
+    bases = [
+        base_identity(process) if name is None else name
+        for process, name in zip(processes, names, strict=True)
+    ]
     numbers: dict[str, int] = {}
+    taken = {*bases, *others}
+    if len(taken) == len(bases) + len(others):
+        return tuple(bases)
     taken = set(others)
     ids = []
-    for process in processes:
-        base = identity = base_identity(process)
+    for base in bases:
+        identity = base
         while identity in taken:
             numbers[base] = numbers.get(base, 1) + 1
             identity = f"{base}#{numbers[base]}"
@@ -63,28 +82,33 @@ def node_name(process: ResolvedProcess | ResolvedComponent) -> str | None:
 
 
 def check_names(
-    processes: Sequence[ResolvedProcess | ResolvedComponent],
-    problems: Problems,
-    containers: Sequence[ResolvedProcess] = (),
+    resolved: Resolved, names: Sequence[str | None], new: Sequence[int] | None, problems: Problems
 ) -> None:
     """Report nodes that were given the same full name; those of two ROS domains never meet.
+
+    `names` are those of processes and components; of them only the `new` ones are looked at where that is given.
 
     It is only a warning where a condition stands on one of them, where one is a component, which its container may
     refuse, and where one is written in Python: files that exist already do this, and upstream starts both. So it is of
     publishers of static transforms, which nobody asks for anything: files that work give all of them one name.
     """
+    processes: list[ResolvedProcess | ResolvedComponent] = [*resolved.processes, *resolved.components]
+    if new is not None:
+        processes, names = [processes[place] for place in new], [names[place] for place in new]
     twice = _tell_twice(processes, problems)
+    known = [name for name in names if name is not None]
+    if len({*known}) == len(known):
+        return
     first: dict[str, ResolvedProcess | ResolvedComponent] = {}
     told: set[tuple[Location | Span, Location | Span]] = set()
-    for process in processes:
-        name = node_name(process)
+    for process, name in zip(processes, names, strict=True):
         if name is None or process.name is None:
             continue
         earlier = first.setdefault(name, process)
         if earlier is process:
             continue
-        domain = domain_of(process, containers)
-        if domain != domain_of(earlier, containers):
+        domain = domain_of(process, resolved.processes)
+        if domain != domain_of(earlier, resolved.processes):
             earlier = first.setdefault(f"{name} of {domain}", process)
             if earlier is process:
                 continue

@@ -6,18 +6,15 @@ tuples, mappings are plain dicts that nobody changes. `${run}` in a path stands 
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Literal, TypeAlias
+from typing import Literal, TypeAlias
 
 from orchestra.dataclass import dataclass, maker
 from orchestra.errors import Problem
-from orchestra.fields import field, fields
+from orchestra.fields import field
 from orchestra.location import Location
 from orchestra.plan.conditions import Alive, Dependency, Ready
 from orchestra.plan.reactions import Trigger
 from orchestra.values import Limits, ParameterValue, Restart, Stop
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 VERSION = 1
 
@@ -82,26 +79,8 @@ class Candidate:
     through: tuple[Via, ...] = ()
 
 
-class Late:
-    """A record whose fields can be made all at once when the first of them is read: hardly anybody asks for them."""
-
-    __slots__ = ("_make",)
-
-    if not TYPE_CHECKING:  # for type checkers there are the fields of the record and no others
-
-        def __getattr__(self, name: str) -> object:
-            names = {item.name for item in fields(self)}
-            if name not in names:
-                raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
-            made = self._make()
-            for known in names:
-                object.__setattr__(self, known, getattr(made, known))
-            object.__delattr__(self, "_make")
-            return object.__getattribute__(self, name)
-
-
 @dataclass(frozen=True, slots=True)
-class Provenance(Late):
+class Provenance:
     """Where the values of a process were written.
 
     `naming` has all that was written for its `name` and its `namespace`, `remapping_values` what the two sides of each
@@ -117,16 +96,6 @@ class Provenance(Late):
     remapping_values: tuple[tuple[Via, ...], ...] = ()
     command: tuple[Via, ...] = ()
     params_schema: Location | None = None
-
-
-_set_make = vars(Late)["_make"].__set__
-
-
-def late_provenance(make: Callable[[], Provenance]) -> Provenance:
-    """Return what is made when somebody asks where something was written."""
-    provenance = object.__new__(Provenance)
-    _set_make(provenance, make)
-    return provenance
 
 
 @dataclass(frozen=True, slots=True)
@@ -248,6 +217,27 @@ class Plan:
     triggers: tuple[Trigger, ...]
     skipped: tuple[Skipped, ...]
     problems: tuple[Problem, ...]
+
+
+def _postponed(record: type, name: str) -> None:
+    """Let a field be made when it is first read: what stands there until then is called with the record."""
+    slot = vars(record)[name]
+    kept, keep = slot.__get__, slot.__set__
+
+    def read(owner: object) -> object:
+        value = kept(owner)
+        if callable(value):
+            value = value(owner)
+            keep(owner, value)
+        return value
+
+    setattr(record, name, property(read, keep))
+
+
+# What a run asks for, and hardly anybody who only looks at a plan; where something was written, most ask neither.
+_postponed(Process, "digest")
+_postponed(Process, "provenance")
+_postponed(ParameterFile, "content")
 
 
 # What a plan has many of.

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Final, TypeAlias
+from functools import partial
+from operator import attrgetter
+from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.dataclass import dataclass, maker
 from orchestra.errors import Code, Problems
@@ -12,10 +14,10 @@ from orchestra.nearest import nearest
 from orchestra.plan import candidates
 from orchestra.plan.absent import is_mistake
 from orchestra.plan.ids import node_name
-from orchestra.plan.model import Candidate, ParameterFile, new_candidate, new_file
+from orchestra.plan.model import Candidate, ParameterFile, new_candidate
 from orchestra.plan.parameter_file import rendered
 from orchestra.plan.passed_on import EVERY_NODE, Sections
-from orchestra.resolve.model import InlineParameter
+from orchestra.resolve.model import FileParameters, InlineParameter
 from orchestra.resolve.rcl.effective import effective
 from orchestra.resolve.rcl.indexed import absolute
 from orchestra.resolve.rcl.patterns import matches
@@ -23,9 +25,9 @@ from orchestra.resolve.rcl.table import alone
 from orchestra.values import ParameterValue
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterator, Sequence
 
-    from orchestra.location import Location
+    from orchestra.plan.passed_on import Content
     from orchestra.resolve.model import (
         ParameterSource,
         Resolved,
@@ -40,12 +42,13 @@ if TYPE_CHECKING:
 class Parameters:
     """What a node gets: values by name, what tells all that was `written` for each, and what goes to other nodes.
 
-    Where they are not `is_passed` all of them are on the node's command line as it is.
+    That is the content of the file that is `passed`, or what makes it. Where they are not `is_passed` all of them are
+    on the node's command line as it is.
     """
 
     values: dict[str, ParameterValue] = field(default_factory=dict)
     written: Callable[[], dict[str, tuple[Candidate, ...]]] = dict
-    files: tuple[ParameterFile, ...] = ()
+    passed: Any = None
     is_passed: bool = False
 
 
@@ -61,13 +64,10 @@ def parameters_of(
     if process.kind == "process" or not (is_passed or process.parameter_arguments):
         return _NONE
     own = full if full is not None and process.namespace is not None else EVERY_NODE
-    plain = (
-        None
-        if sections.given or process.parameter_arguments
-        else _plain(process, own, full, sections, whole=whole)
-    )
-    if plain is not None:
-        return plain
+    if not (sections.given or process.parameter_arguments):
+        plain = _plain(process, own, full, sections, whole=whole)
+        if plain is not None:
+            return plain
     settings = settings_of(sections.for_node(process, own, full), full)
     overrides = settings_of(sections.given_to(process), full)
     _report(settings, overrides, problems)
@@ -82,7 +82,7 @@ def parameters_of(
     return Parameters(
         {name: setting.value for name, setting in every.items() if setting.value is not None},
         written,
-        sections.passed_on(process, own) if whole else (),
+        sections.passed_on(process, own) if whole else None,
         is_passed,
     )
 
@@ -94,10 +94,6 @@ def _origins(process: ResolvedProcess, *, whole: bool) -> candidates.Origins:
     return candidates.origins((*process.parameter_arguments, *process.parameters) if whole else ())
 
 
-# The value of a parameter, its place, and whether it is one of a file.
-_Single: TypeAlias = "tuple[ParameterValue | None, Location, InlineParameter | None]"
-
-
 def _plain(
     process: ResolvedProcess, own: str, full: str | None, sections: Sections, *, whole: bool
 ) -> Parameters | None:
@@ -105,90 +101,106 @@ def _plain(
 
     Where the full name is not known, other nodes in the process may read them too.
     """
-    values = _inline_once(process.parameters)
+    parameters = process.parameters
+    values = None if FileParameters in map(type, parameters) else _inline_once(parameters)
+    passed: Content | None = None
     if values is None:
-        singles = _each_once(process, own, full, sections)
-        if singles is None:
+        found = _each_once(parameters, own, full, sections)
+        if found is None:
             return None
-        values = {
-            name: value
-            for part in singles.values()
-            for name, (value, _, _) in part.items()
-            if value is not None
-        }
-    files: tuple[ParameterFile, ...] = ()
-    if whole and any(kind is not InlineParameter for kind in set(map(type, process.parameters))):
-        files = sections.passed_on(process, own)
-    elif whole and values and own == EVERY_NODE:
-        files = (new_file("", rendered(own, values)),)
+        values = _values(found, sections)
+        if whole:
+            passed = sections.passed_on(process, own)
+    elif whole and own == EVERY_NODE:
+        passed = partial(_of_every_node, values)
 
     def written() -> dict[str, tuple[Candidate, ...]]:
-        known, found = _origins(process, whole=whole), _each_once(process, own, full, sections) or {}
+        known = _origins(process, whole=whole)
+        found = _each_once(parameters, own, full, sections) or {}
         return {
-            name: _candidate(*single, f"set for '{pattern}'", known)
-            for pattern, singles in found.items()
-            for name, single in singles.items()
+            name: told
+            for pattern, sources in found.items()
+            for source in sources
+            for name, told in _told(source, f"set for '{pattern}'", known)
         }
 
-    return new_parameters(values, written, files, True)
+    return new_parameters(values, written, passed, True)
 
 
 new_parameters = maker(Parameters)
 
 
-def _candidate(
-    value: ParameterValue | None,
-    at: Location,
-    source: InlineParameter | None,
-    rule: str,
-    known: candidates.Origins,
-) -> tuple[Candidate, ...]:
-    through = candidates.behind(at, known) if source is None else candidates.passage(source.through)
-    return (new_candidate(value, at, True, rule, through),)
+def _of_every_node(values: dict[str, ParameterValue], file: ParameterFile) -> str:
+    del file
+    return rendered(EVERY_NODE, values)
+
+
+_SETTING: Final = attrgetter("name", "value")
+_EVERYWHERE: Final = attrgetter("everywhere")
 
 
 def _inline_once(parameters: Sequence[ParameterSource]) -> dict[str, ParameterValue] | None:
-    """Return the values of parameters by their names; None where there are others than those of one node, each once."""
-    values = {}
-    for source in parameters:
-        if type(source) is not InlineParameter or source.everywhere or source.value is None:
-            return None
-        values[source.name] = source.value
-    return values if len(values) == len(parameters) else None
+    """Return the values by their names; None where there are others than those of one node, each once."""
+    values: dict[str, ParameterValue] = dict(map(_SETTING, parameters))
+    known = len(values) == len(parameters) and None not in values.values()
+    return values if known and not any(map(_EVERYWHERE, parameters)) else None
 
 
 def _each_once(
-    process: ResolvedProcess, own: str, full: str | None, sections: Sections
-) -> dict[str, dict[str, _Single]] | None:
-    """Return the parameters by pattern and name, the patterns in the order in which they appear first.
+    parameters: Sequence[ParameterSource], own: str, full: str | None, sections: Sections
+) -> dict[str, list[InlineParameter | Section]] | None:
+    """Return what sets parameters by pattern, the patterns in the order in which they appear first.
 
-    None where one is written twice, or may take the slot of another. What is set for all nodes is left out of it, and
-    files where they are given to a node without a name.
+    None where one is written twice, or may take the slot of another, and for files of a node without a name.
     """
-    found: dict[str, dict[str, _Single]] = {}
+    found: dict[str, list[InlineParameter | Section]] = {}
     taken: set[str] = set()
-    for source in process.parameters:
+    for source in parameters:
         if type(source) is InlineParameter:
-            if source.everywhere or source.name in taken:
+            if source.name in taken or (source.everywhere and source.value is None):
                 return None
             taken.add(source.name)
-            single = (source.value, source.location, source)
-            if own in found:
-                found[own][source.name] = single
+            pattern = EVERY_NODE if source.everywhere else own
+            if pattern in found:
+                found[pattern].append(source)
             else:
-                found[own] = {source.name: single}
+                found[pattern] = [source]
             continue
         if full is None:
             return None
         for section in sections.of_file(source, full):  # type: ignore[arg-type]  # the other kind of source
-            entries = alone(section)
-            if entries is None or not taken.isdisjoint(entries[1]):
+            apart = sections.apart(section)
+            if apart is None or not taken.isdisjoint(apart[1]):
                 return None
-            taken.update(entries[1])
-            singles = found.setdefault(section.pattern, {})
-            for name, entry in entries[0].items():
-                singles[name] = (entry.value, entry.location, None)
+            taken.update(apart[1])
+            found.setdefault(section.pattern, []).append(section)
     return found
+
+
+def _values(
+    found: dict[str, list[InlineParameter | Section]], sections: Sections
+) -> dict[str, ParameterValue]:
+    values: dict[str, ParameterValue] = {}
+    for sources in found.values():
+        for source in sources:
+            if type(source) is not InlineParameter:
+                values.update(sections.apart(source)[0])  # type: ignore[index,arg-type]  # it has been found so
+            elif source.value is not None:
+                values[source.name] = source.value
+    return values
+
+
+def _told(
+    source: InlineParameter | Section, rule: str, known: candidates.Origins
+) -> Iterator[tuple[str, tuple[Candidate, ...]]]:
+    """Yield the names of parameters with the one value that is written for each."""
+    if isinstance(source, InlineParameter):
+        through = candidates.passage(source.through)
+        yield source.name, (new_candidate(source.value, source.location, True, rule, through),)
+        return
+    for name, entry in (alone(source) or ({}, ()))[0].items():
+        through = candidates.behind(entry.location, known)
+        yield name, (new_candidate(entry.value, entry.location, True, rule, through),)
 
 
 def check_given(resolved: Resolved, problems: Problems) -> None:

@@ -6,10 +6,10 @@ nodes would be passed on a thousand times else, and a change of one section woul
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING
 
 from orchestra.plan.ids import node_name
-from orchestra.plan.model import new_file
 from orchestra.plan.parameter_file import line, with_lines
 from orchestra.resolve.model import InlineParameter
 from orchestra.resolve.rcl.indexed import Indexed, absolute
@@ -17,12 +17,16 @@ from orchestra.resolve.rcl.sections import Entry, Section, entry
 from orchestra.resolve.rcl.table import alone, flat, tabulated
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Container, Iterable, Sequence
+    from collections.abc import Callable, Collection, Container, Iterable, Sequence
     from typing import TypeAlias
 
     from orchestra.plan.model import ParameterFile
     from orchestra.resolve.model import FileParameters, Resolved, ResolvedComponent, ResolvedProcess
+    from orchestra.values import ParameterValue
 
+    # Of a file that is passed on: the text, or what makes it when somebody asks for it.
+    Content: TypeAlias = "str | Callable[[ParameterFile], str]"
+    _Apart: TypeAlias = "tuple[dict[str, ParameterValue], Collection[str]]"
     _Block: TypeAlias = "tuple[str, Collection[str], list[str] | None]"
 
 EVERY_NODE = "/**"
@@ -34,10 +38,12 @@ class Sections:
     def __init__(self, resolved: Resolved, nodes: Container[str | None]) -> None:
         """Take the full names of the nodes that processes are."""
         self.given = tuple(section for item in resolved.given for section in item.sections)
+        self._resolved = resolved  # what is known by its identity stays, as long as anything is asked for
         self._nodes = nodes
         self._files: dict[int, Indexed] = {}
         self._others: dict[int, _Others] = {}
-        self._passed_on: dict[tuple[object, ...], tuple[ParameterFile, ...]] = {}
+        self._apart: dict[int, _Apart | None] = {}
+        self._passed_on: dict[tuple[object, ...], str] = {}
         # By identities: entries and sections are kept, so that no others get theirs.
         self._lines: dict[tuple[str, int], tuple[Entry, str]] = {}
         self._blocks: dict[int, tuple[Section, _Block]] = {}
@@ -59,29 +65,55 @@ class Sections:
         """Return the sections of a file that are for a node."""
         return self._matching(source.sections, full)
 
+    def apart(self, section: Section) -> _Apart | None:
+        """Return the values of a section of a file, and all names that it takes; None where some are in the way."""
+        key = id(section)
+        if key in self._apart:
+            return self._apart[key]
+        entries = alone(section)
+        known = self._apart[key] = entries and (
+            {name: entry.value for name, entry in entries[0].items() if entry.value is not None},
+            entries[1],
+        )
+        return known
+
     def given_to(self, node: ResolvedProcess | ResolvedComponent) -> list[Section]:
         """Return the sections of the command line that are for a node."""
         return self._matching(self.given, node_name(node)) if self.given else []
 
-    def passed_on(self, node: ResolvedProcess, own: str) -> tuple[ParameterFile, ...]:
+    def passed_on(self, node: ResolvedProcess, own: str) -> Content | None:
         """Return the sections that other nodes in the process may read, merged as rcl merges them, in order.
 
         Of a node whose full name is not known its own sections are among them, and of one without a name all are.
+        None where there are none.
         """
         known = own != EVERY_NODE
         sources = [item for item in node.parameters if not _is_own(item)] if known else node.parameters
         if not (sources or self.given):
-            return ()
+            return None
         name = None if node.name is None else node.name.text
-        key = (known or name, *(id(getattr(item, "sections", item)) for item in sources))
+        if not known and any(type(item) is InlineParameter and item.value is not None for item in sources):
+            # No other node has these, and there is something in it.
+            return partial(self._content, sources, own, name, known)
+        key = (known or name, *[id(getattr(item, "sections", item)) for item in sources])
         if key not in self._passed_on:
-            content = None if self.given else self._plainly(sources, own, name, known=known)
-            if content is None:
-                every = [section for item in sources for section in self._of(item, own, name, known=known)]
-                every += self._kept(self.given, name, known=known)
-                content = self._rendered(every)
-            self._passed_on[key] = (new_file("", content),) if content else ()
-        return self._passed_on[key]
+            self._passed_on[key] = self._content(sources, own, name, known)
+        return self._passed_on[key] or None
+
+    def _content(
+        self,
+        sources: Sequence[InlineParameter | FileParameters],
+        own: str,
+        name: str | None,
+        known: bool,
+        _file: ParameterFile | None = None,
+    ) -> str:
+        content = None if self.given else self._plainly(sources, own, name, known=known)
+        if content is None:
+            every = [section for item in sources for section in self._of(item, own, name, known=known)]
+            every += self._kept(self.given, name, known=known)
+            content = self._rendered(every)
+        return content
 
     def _plainly(
         self, sources: Sequence[InlineParameter | FileParameters], own: str, name: str | None, *, known: bool
@@ -159,9 +191,9 @@ class Sections:
         return others.sections if known else others.with_those_of(name)
 
     def _matching(self, sections: tuple[Section, ...], full: str | None) -> list[Section]:
-        if id(sections) not in self._files:
-            self._files[id(sections)] = Indexed(sections)
-        index = self._files[id(sections)]
+        index = self._files.get(id(sections))
+        if index is None:
+            index = self._files[id(sections)] = Indexed(sections)
         return index.everywhere() if full is None else index.matching(full)
 
 

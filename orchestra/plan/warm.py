@@ -69,13 +69,14 @@ def warmed(plan: Plan, environment: Mapping[str, str]) -> Plan:
 class Warmth:
     """Decides about the processes of a plan; `environment` is the one in which they are started."""
 
-    __slots__ = ("_environment", "_general", "_programs", "_search_path")
+    __slots__ = ("_environment", "_general", "_known", "_programs", "_search_path")
 
     def __init__(self, environment: Mapping[str, str]) -> None:
         self._environment = environment
         self._general = _general(environment)
         self._search_path = cache(lambda: _search_path(environment))
         self._programs: dict[tuple[str, ...], tuple[Warm, bool]] = {}
+        self._known: dict[tuple[str | None, ...], tuple[Warm, bool]] = {}  # by what commands begin with
 
     def of(
         self,
@@ -91,17 +92,25 @@ class Warmth:
         if reason:
             return Warm(False, reason)
         path = (own["PATH"] if "PATH" in own else self._search_path()) or os.defpath
-        # As many words as may say which program it is: those behind an interpreter do.
-        words = 3 if _is_python(command[0]) else 1
-        key = (path, process.cwd or "", *command[:words])
-        program = self._programs.get(key)
+        key = (path, process.cwd, *command[:3])
+        program = self._known.get(key)
         if program is None:
-            found = once(("warm", os.getcwd(), *key), lambda: _program(command, process.cwd, path))  # noqa: PTH109 - a word
-            program = self._programs[key] = _decided(found)
+            program = self._known[key] = self._program(command, process.cwd, path)
         warm, imports = program
         if process.kind == "process" and wished is None and warm.warm and not imports:
             return Warm(False, "it is no node, and says nothing of rclpy")
         return warm
+
+    def _program(self, command: tuple[str, ...], cwd: str | None, path: str) -> tuple[Warm, bool]:
+        """Look at the program of a command, once for all that differ behind it."""
+        # As many words as may say which program it is: those behind an interpreter do.
+        words = 3 if _is_python(command[0]) else 1
+        key = (path, cwd or "", *command[:words])
+        program = self._programs.get(key)
+        if program is None:
+            found = once(("warm", os.getcwd(), *key), lambda: _program(command, cwd, path))  # noqa: PTH109 - a word
+            program = self._programs[key] = _decided(found)
+        return program
 
     def _by_environment(self, own: Mapping[str, str | None]) -> str | None:
         for name, value in own.items():

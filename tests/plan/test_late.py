@@ -1,49 +1,58 @@
-"""Where things were written is worked out when somebody asks, and then it is what it always was."""
+"""Some fields of a plan's records are worked out when somebody asks, and then they are what they always were."""
 
 from __future__ import annotations
 
 import copy
 import pickle
-from dataclasses import FrozenInstanceError
 from typing import Any
 
 import pytest
 
 from orchestra.fields import replace
-from orchestra.location import Location, point
-from orchestra.plan.model import Provenance, late_provenance
+from orchestra.plan.digest import digest
+from orchestra.plan.model import ParameterFile, Process, Provenance, new_file, new_process
+from tests.plan.records import at, process
 
-_AT = Location(point("a.yaml", 3, 4))
+_WRITTEN = Provenance(name=at(3))
 
 
-def test_what_is_late_is_made_once_and_only_when_asked_for() -> None:
+def _late(**makers: Any) -> Process:
+    """Return a process of which some fields are made by what is given for them."""
+    known = process("talker")
+    return new_process(**{**{name: getattr(known, name) for name in Process.__slots__}, **makers})
+
+
+def test_what_is_late_is_made_once_of_the_record_and_only_when_asked_for() -> None:
     made = []
 
-    def make() -> Provenance:
-        made.append(Provenance(name=_AT))
-        return made[-1]
+    def make(owner: Process) -> Provenance:
+        made.append(owner)
+        return _WRITTEN
 
-    late = late_provenance(make)
+    late = _late(provenance=make)
     assert not made
-    assert (late.name, late.remappings, late.name) == (_AT, (), _AT)
-    assert len(made) == 1
+    assert (late.provenance, late.provenance) == (_WRITTEN, _WRITTEN)
+    assert made == [late]
 
 
-def _sent(record: Provenance) -> Any:
+def test_the_digest_is_that_of_the_process() -> None:
+    late = _late(digest=digest, command=("sleep", "1"))
+    assert late.digest == digest(late) == process("talker", "sleep", "1").digest
+
+
+def test_the_content_of_a_file_is_made_for_it() -> None:
+    late = new_file("${run}/params/a.yaml", lambda file: f"# {file.path}\n")  # type: ignore[arg-type]  # made of it
+    assert late == ParameterFile("${run}/params/a.yaml", "# ${run}/params/a.yaml\n")
+
+
+def _sent(record: Process) -> Any:
     return pickle.loads(pickle.dumps(record))  # noqa: S301 - our own
 
 
 @pytest.mark.parametrize("changed", [lambda late: late, copy.copy, _sent])
 def test_what_is_late_is_like_any_other(changed: Any) -> None:
-    late = changed(late_provenance(lambda: Provenance(name=_AT)))
-    assert late == Provenance(name=_AT)
-    assert repr(late) == repr(Provenance(name=_AT))
-    assert replace(late, namespace=_AT) == Provenance(name=_AT, namespace=_AT)
-
-
-def test_what_is_late_has_no_other_fields_and_lets_none_be_changed() -> None:
-    late: Any = late_provenance(Provenance)
-    with pytest.raises(AttributeError, match="no attribute 'nothing'"):
-        _ = late.nothing
-    with pytest.raises(FrozenInstanceError):
-        late.name = _AT
+    known = replace(process("talker"), provenance=_WRITTEN)
+    late = changed(_late(provenance=lambda _: _WRITTEN, digest=digest))
+    assert late == known
+    assert repr(late) == repr(known)
+    assert replace(late, namespace="/r") == replace(known, namespace="/r")

@@ -40,6 +40,7 @@ def check_declared(resolved: Resolved, plan: Plan, problems: Problems) -> None:
     surprises = {problem.span for problem in problems if problem.code is Code.SURPRISING_SCALAR}
     broken = {_line(item) for item in problems if item.severity is Severity.ERROR and item.span is not None}
     plain: set[str] = set()  # names that are no slip for one that every node has
+    forms: set[tuple[object, ...]] = set()  # of values among which are such
     for node, planned in nodes_of(resolved, plan):
         if node.package == _MANAGERS and not node.faulty:
             # Here, because few descriptions have such.
@@ -47,11 +48,10 @@ def check_declared(resolved: Resolved, plan: Plan, problems: Problems) -> None:
 
             check_managed(planned, places.of("node_names", node, planned), plan, problems)
         schema, named = schemas.of(node)
-        if schema is None and planned.parameters.keys() <= plain:
+        values = planned.parameters
+        if schema is None and (values.keys() <= plain or (*values, *map(type, values.values())) in forms):
             continue
-        faults = (
-            _of_every_node(planned.parameters, plain) if schema is None else schema.faults(planned.parameters)
-        )
+        faults = _of_every_node(values, plain, forms) if schema is None else schema.faults(values)
         for fault in faults:
             if not (fault.whole or fault.kind == "missing") or _is_whole(node):
                 written = places.of(fault.name, node, planned)
@@ -118,12 +118,13 @@ def _known(package: str | None, called: str) -> ParameterSchema | None:
     return known_schema(package, called)
 
 
-def _of_every_node(values: dict[str, ParameterValue], plain: set[str]) -> Iterable[Fault]:
-    typed = COMMON.keys().isdisjoint(values) or all(
-        isinstance(values.get(name, True), bool) for name in COMMON
-    )
+def _of_every_node(
+    values: dict[str, ParameterValue], plain: set[str], forms: set[tuple[object, ...]]
+) -> Iterable[Fault]:
+    typed = all(isinstance(values.get(name, True), bool) for name in COMMON)
     if typed and not any(map(common_meant, values)):
         plain |= values.keys() - COMMON.keys()
+        forms.add((*values, *map(type, values.values())))
         return ()
     from orchestra.declared.judging import of_every_node  # noqa: PLC0415 - hardly any description needs it
 

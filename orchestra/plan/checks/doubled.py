@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from operator import attrgetter
+from typing import TYPE_CHECKING, Final
 
 from orchestra.errors import Code
 from orchestra.location import is_python
 from orchestra.plan.ids import node_name
-from orchestra.resolve.model import InlineParameter
+from orchestra.resolve.model import FileParameters, InlineParameter
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -15,13 +16,14 @@ if TYPE_CHECKING:
     from orchestra.errors import Problems
     from orchestra.plan.model import Plan
     from orchestra.resolve.model import (
-        FileParameters,
         ParameterSource,
         Resolved,
         ResolvedComponent,
         ResolvedProcess,
     )
     from orchestra.resolve.rcl.sections import Entry, Section
+
+_NAME: Final = attrgetter("name")
 
 
 def check_doubled(resolved: Resolved, plan: Plan, problems: Problems) -> None:
@@ -46,15 +48,11 @@ def check_doubled(resolved: Resolved, plan: Plan, problems: Problems) -> None:
 
 def _are_apart(parameters: Sequence[ParameterSource]) -> bool:
     """Return whether no name stands twice, and no file behind a name: most lists are such."""
-    names: set[str] = set()
-    for item in parameters:
-        if type(item) is InlineParameter:
-            if item.name in names:
-                return False
-            names.add(item.name)
-        elif names:
-            return False
-    return True
+    kinds = [*map(type, parameters)]
+    if FileParameters not in kinds:
+        return len({*map(_NAME, parameters)}) == len(kinds)
+    names = {item.name for item in parameters if type(item) is InlineParameter}
+    return len(names) == kinds.count(InlineParameter) and InlineParameter not in kinds[: -len(names) or None]
 
 
 def _check_values(inline: Sequence[InlineParameter], told: set[str], problems: Problems) -> None:

@@ -16,13 +16,12 @@ if TYPE_CHECKING:
 
 def check_interfaces(resolved: Resolved, plan: Plan, problems: Problems) -> None:
     """Report what keeps nodes from talking with each other; nothing is known where no package declares interfaces."""
+    programs = {(item.share, item.executable) for item in resolved.processes if item.kind != "process"}
+    programs |= {(item.share, item.plugin) for item in resolved.components}
     called: dict[str, set[str]] = {}
-    for process in resolved.processes:
-        if process.share is not None and process.kind != "process":
-            called.setdefault(process.share, set()).add(process.executable)
-    for component in resolved.components:
-        if component.share is not None:
-            called.setdefault(component.share, set()).add(component.plugin)
+    for share, name in programs:
+        if share is not None:
+            called.setdefault(share, set()).add(name)
     if not any(may_be_declared(share, names) for share, names in called.items()):
         return
     # Here, because few packages declare interfaces, and for what it imports.

@@ -17,7 +17,7 @@ from orchestra.errors import Code
 from orchestra.fields import field
 from orchestra.location import Location
 from orchestra.plan.checks.section_keys import absolute, is_for_any, is_one_key, key_for, outer_key, words_of
-from orchestra.plan.ids import node_name
+from orchestra.plan.ids import full_names, node_name
 from orchestra.resolve.model import FileParameters, ResolvedProcess
 from orchestra.resolve.rcl.indexed import Indexed
 from orchestra.resolve.rcl.patterns import matches
@@ -41,27 +41,25 @@ _MADE = "${run}/"  # what code of a launch file has written is nothing to show
 
 @dataclass(slots=True)
 class _File:
-    """A parameter file and the nodes that it is given to, by their full names; `open`: one has no known name.
-
-    `programs` are the packages and executables of those that are processes.
-    """
+    """A parameter file and the nodes that it is given to, by their full names; `open`: one has no known name."""
 
     source: FileParameters
-    users: dict[str, Location] = field(default_factory=dict)
-    programs: dict[str, tuple[str | None, str]] = field(default_factory=dict)
+    users: dict[str, tuple[Location, _Node]] = field(default_factory=dict)
     open: bool = False
+
+    def program(self, name: str) -> tuple[str | None, ...]:
+        """Return the package and the executable of a node that is a process."""
+        node = self.users[name][1]
+        return (node.package, node.executable) if isinstance(node, ResolvedProcess) else ()
 
 
 def check_sections(resolved: Resolved, plan: Plan, problems: Problems) -> None:
     """Report sections that miss their node, and files that have nothing for a node."""
     del plan
-    nodes: list[_Node] = [item for item in resolved.processes if item.kind != "process"]
-    nodes += resolved.components
-    full = [node_name(node) for node in nodes]
-    files = _files(nodes, full)
+    files = _files(resolved)
     if not files:
         return
-    names = _Names(name for name in full if name is not None)
+    names = _Names((*full_names(resolved.processes), *map(node_name, resolved.components)))
     told: set[object] = set()
     for file in files:
         _check(file, names, resolved, problems, told)
@@ -70,11 +68,8 @@ def check_sections(resolved: Resolved, plan: Plan, problems: Problems) -> None:
 class _Names:
     """The full names of all nodes, and which patterns match any."""
 
-    def __init__(self, names: Iterable[str]) -> None:
-        self._names = frozenset(names)
-        self._lasts: dict[str, list[str]] = {}
-        for name in self._names:
-            self._lasts.setdefault(name.rpartition("/")[2], []).append(name)
+    def __init__(self, names: Iterable[str | None]) -> None:
+        self._names = frozenset(name for name in names if name is not None)
         self._known: dict[str, bool] = {}
 
     def any(self, pattern: str) -> bool:
@@ -91,6 +86,14 @@ class _Names:
         return self._known[pattern]
 
     @cached_property
+    def _lasts(self) -> dict[str, list[str]]:
+        """The names by their last words."""
+        lasts: dict[str, list[str]] = {}
+        for name in self._names:
+            lasts.setdefault(name.rpartition("/")[2], []).append(name)
+        return lasts
+
+    @cached_property
     def _below(self) -> dict[str, list[str]]:
         """The names by each that they are or stand below: patterns may begin with as many namespaces as there are."""
         below: dict[str, list[str]] = {}
@@ -101,24 +104,26 @@ class _Names:
         return below
 
 
-def _files(nodes: Sequence[_Node], names: Sequence[str | None]) -> list[_File]:
+def _files(resolved: Resolved) -> list[_File]:
     """Return the files with the nodes that each is given to; one for all nodes of a scope is a file of its own."""
+    nodes: list[_Node] = [item for item in resolved.processes if item.kind != "process"]
+    nodes += resolved.components
     files: dict[tuple[str, object], _File] = {}
-    for node, name in zip(nodes, names, strict=True):
-        given = [item for item in node.parameters if type(item) is FileParameters and item.sections]
-        if not given or _hands_on(node):
+    for node in nodes:
+        if FileParameters not in map(type, node.parameters) or _hands_on(node):
             continue
-        for source in given:
+        name = node_name(node)
+        for source in node.parameters:
+            if type(source) is not FileParameters or not source.sections:
+                continue
             place = source.location if source.everywhere else None
             file = files.get((source.path, place))
             if file is None:
                 file = files[source.path, place] = _File(source)
             if name is None:
                 file.open = True
-            else:
-                file.users.setdefault(name, source.location)
-                if isinstance(node, ResolvedProcess):
-                    file.programs.setdefault(name, (node.package, node.executable))
+            elif name not in file.users:
+                file.users[name] = (source.location, node)
     return list(files.values())
 
 
@@ -148,7 +153,7 @@ def _check(file: _File, names: _Names, resolved: Resolved, problems: Problems, t
         served = narrow is not None or index.has_wildcard_for(name)
         meant = None
         if idle and not file.open:
-            programs = file.programs.get(name, ())
+            programs = file.program(name)
             meant = _meant(name, idle, served=served, resolved=resolved)
             meant = meant or (_of_program if served else _renamed)(name, programs, idle)
         if meant is not None:
@@ -171,7 +176,7 @@ def _report_rest(
     over = [section for sections in idle.values() for section in sections]
     if len(without) == len(over) == 1 < len(file.users):
         name = without[0]
-        if _is_about(over[0], name, file.programs.get(name, ())):
+        if _is_about(over[0], name, file.program(name)):
             _report(over[0], name, key_for(over[0], name), file, problems, told)
     elif len(without) == len(file.users):
         _report_without(file, without, problems, told, idle=bool(idle))
@@ -250,7 +255,7 @@ def _report(
     problems: Problems,
     told: set[object],
 ) -> None:
-    place, given_at = section.location, file.users[name]
+    place, given_at = section.location, file.users[name][0]
     if place.span in told:
         return
     if instead is None and (outer := outer_key(section, name, file.source.path)) is not None:
@@ -288,7 +293,7 @@ def _report_without(
         problems.warning(
             Code.UNMATCHED_SECTION,
             f"the parameter file has no section for {whom}",
-            file.users[name],
+            file.users[name][0],
             notes=("it has " + ", ".join(f"'{pattern}'" for pattern in patterns),),
         )
         if file.source.everywhere:

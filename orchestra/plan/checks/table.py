@@ -84,9 +84,10 @@ def has_settings(resolved: Resolved, environment: Mapping[str, str]) -> bool:
     """Tell whether any process that may be a node has such a variable, or says on its command line how it logs."""
     if _is_set(environment):
         return bool(resolved.processes)
-    return any(
-        name.startswith(PREFIXES) for process in resolved.processes for name in process.environment
-    ) or any("--log-level" in words or "--enclave" in words for words in _words(resolved))
+    names = {name for process in resolved.processes if process.environment for name in process.environment}
+    return any(name.startswith(PREFIXES) for name in names) or any(
+        "--log-level" in words or "--enclave" in words for words in _words(resolved)
+    )
 
 
 def _is_set(environment: Mapping[str, str]) -> bool:
@@ -109,5 +110,5 @@ def _words(resolved: Resolved) -> list[tuple[str, ...]]:
     return [
         (*process.arguments, *(process.ros_arguments or ()))
         for process in resolved.processes
-        if process.kind != "process"
+        if (process.arguments or process.ros_arguments) and process.kind != "process"
     ]

@@ -60,6 +60,8 @@ def check_topics(resolved: Resolved, plan: Plan, problems: Problems) -> None:
 
 def _check_domain(uses: Sequence[_Use], plan: Plan, told: set[object], problems: Problems) -> None:
     """Report such names of nodes that may meet."""
+    if _are_apart(uses):
+        return
     users: dict[str, set[str]] = {}
     for use in uses:
         users.setdefault(use.name, set()).add(use.node)
@@ -116,6 +118,14 @@ def _alike(uses: Iterable[_Use], plan: Plan) -> Iterator[list[_Use]]:
                 yield group
 
 
+def _are_apart(uses: Sequence[_Use]) -> bool:
+    """Return whether no two names differ only in case and slashes, or in the namespace before them: see `_alike`."""
+    names = {use.name for use in uses}
+    if len({name.replace("/", "").lower() for name in names}) < len(names):
+        return False
+    return names.isdisjoint([f"/{use.written.text}" for use in uses if use.namespace != "/"])
+
+
 def _names(plan: Plan) -> set[str]:
     """Return the full names of all nodes."""
     planned: tuple[_Planned, ...] = (*plan.processes, *plan.components)
@@ -132,7 +142,10 @@ def _uses(resolved: Resolved, plan: Plan) -> Iterator[_Use]:
     for planned, written in _pairs(resolved, plan):
         if written.remaps and not written.faulty:
             yield from _remapped(planned, written)
-    for process, item in zip(plan.processes, resolved.processes, strict=True):
+    waited = [
+        pair for pair in zip(plan.processes, resolved.processes, strict=True) if pair[1].ready is not None
+    ]
+    for process, item in waited:
         if process.ready is None or item.ready is None:
             continue
         awaited = ((process.ready.message, item.ready.message), (process.ready.topic, item.ready.topic))

@@ -25,29 +25,46 @@ if TYPE_CHECKING:
 
     _Node: TypeAlias = "tuple[ResolvedProcess | ResolvedComponent, Process | Component]"
     _Given: TypeAlias = "tuple[ResolvedProcess | ResolvedComponent, Process | Component, ParameterValue]"
-    _Types: TypeAlias = "dict[str, type]"
 
 _KINDS: Final = {float: "a float", int: "an integer", bool: "a boolean"}
+_MISTAKEN: Final = (int, str)
 _TOLD: Final = (Code.DECLARED_TYPE, Code.SURPRISING_SCALAR, Code.REFUSED_VALUE)
 
 
 def check_unlike(resolved: Resolved, plan: Plan, problems: Problems) -> None:
     """Report values that are no floats where another node of the same program has one, and such in quotes."""
-    programs: dict[tuple[str, str], tuple[_Types, list[_Node], set[str]]] = {}
+    odd = _odd(resolved, plan)
+    if not odd:
+        return
+    programs: dict[tuple[str | None, str], list[_Node]] = {}
     for node, planned in nodes_of(resolved, plan):
-        if node.package is None or node.faulty or not planned.parameters:
-            continue
         called = node.plugin if isinstance(node, ResolvedComponent) else node.executable
-        types, nodes, odd = programs.setdefault((node.package, called), ({}, [], set()))
-        nodes.append((node, planned))
-        for name, value in planned.parameters.items():
-            if types.setdefault(name, type(value)) is not type(value):
-                odd.add(name)
-    if any(odd for _, _, odd in programs.values()):
-        places, told = Places(resolved), {item.span for item in problems if item.code in _TOLD}
-        for (_, called), (_, nodes, odd) in programs.items():
-            for name in sorted(odd):
-                _tell(name, called, nodes, places, told, problems)
+        if planned.parameters and (node.package, called) in odd and not node.faulty:
+            programs.setdefault((node.package, called), []).append((node, planned))
+    places, told = Places(resolved), {item.span for item in problems if item.code in _TOLD}
+    for program, nodes in programs.items():
+        for name in sorted(odd[program]):
+            _tell(name, program[1], nodes, places, told, problems)
+
+
+def _odd(resolved: Resolved, plan: Plan) -> dict[tuple[str | None, str], set[str]]:
+    """Return the names of parameters that nodes of one program are given with values of several types, by program."""
+    types: dict[tuple[str | None, str], dict[str, type]] = {}
+    odd: dict[tuple[str | None, str], set[str]] = {}
+    for node, planned in nodes_of(resolved, plan):
+        values = planned.parameters
+        if not values:
+            continue
+        program = (node.package, node.plugin if isinstance(node, ResolvedComponent) else node.executable)
+        kinds = dict(zip(values, map(type, values.values()), strict=True))
+        known = types.get(program)
+        if (known is not None and kinds.items() <= known.items()) or node.package is None or node.faulty:
+            continue  # as most nodes of a program
+        known = types.setdefault(program, kinds)
+        for name, kind in kinds.items():
+            if known.setdefault(name, kind) is not kind:
+                odd.setdefault(program, set()).add(name)
+    return odd
 
 
 def _tell(
@@ -63,8 +80,11 @@ def _tell(
     firsts: dict[type, _Given] = {}
     for item in given:
         firsts.setdefault(type(item[2]), item)
+    meant = [kind for kind in _KINDS if kind in firsts]
     for node, planned, value in given:
-        wanted = next((kind for kind in _KINDS if kind in firsts and _as(value, kind) is not None), None)
+        if type(value) not in _MISTAKEN:
+            continue
+        wanted = next((kind for kind in meant if _as(value, kind) is not None), None)
         place = None if wanted is None else places.of(name, node, planned).value
         if wanted is None or place is None or place.span in told:
             continue

@@ -24,11 +24,17 @@ if TYPE_CHECKING:
 
 def check_waits(resolved: Resolved, plan: Plan, problems: Problems) -> None:
     """Report dependencies that cannot come about, and facts about nodes whose names are slips."""
-    by_id = {process.id: process for process in plan.processes}
-    for process in plan.processes:
-        for edge in process.depends_on:
-            if edge.required and edge.condition in ("completed", "exited"):
-                _check_end(by_id.get(edge.process), edge.condition, edge.location, problems)
+    ends = [
+        edge
+        for process in plan.processes
+        if process.depends_on
+        for edge in process.depends_on
+        if edge.required and edge.condition in ("completed", "exited")
+    ]
+    if ends:
+        by_id = {process.id: process for process in plan.processes}
+        for edge in ends:
+            _check_end(by_id.get(edge.process), edge.condition, edge.location, problems)
     if all(process.ready is None for process in plan.processes):
         return
     nodes: list[ResolvedProcess | ResolvedComponent] = [*resolved.processes, *resolved.components]
