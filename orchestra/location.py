@@ -39,7 +39,11 @@ class Span:
     end_column: int
 
     def __str__(self) -> str:
-        return f"{self.file}:{self.line}:{self.column}"
+        whole = whole_of(self)
+        if whole is None:
+            return f"{self.file}:{self.line}:{self.column}"
+        line, column = whole.place(self._offsets[1])  # type: ignore[attr-defined]  # its end need not be known
+        return f"{whole.file}:{line}:{column}"
 
     def __reduce__(self) -> tuple[type[Span], tuple[str, int, int, int, int]]:
         return Span, (self.file, self.line, self.column, self.end_line, self.end_column)

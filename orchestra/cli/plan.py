@@ -149,14 +149,19 @@ def _compare(options: Namespace, made: Made, paint: colour.Paint) -> int:
 
 
 def _shown(options: Namespace, made: Made, paint: colour.Paint) -> str:
-    from orchestra.cli.planning import host  # noqa: PLC0415 - heavy, and `--help` does not need it
-    from orchestra.cli.planning.choice import chosen  # noqa: PLC0415 - as above
-    from orchestra.plan.portable import portable  # noqa: PLC0415 - as above
-    from orchestra.plan.render.formats import FORMATS as RENDERERS  # noqa: PLC0415 - as above
-    from orchestra.plan.render.setting import Setting  # noqa: PLC0415 - as above
+    # What only some options need is imported for these.
+    from orchestra.plan.render.formats import FORMATS as RENDERERS  # noqa: PLC0415
+    from orchestra.plan.render.setting import Setting  # noqa: PLC0415
 
-    plan = chosen(made.plan, options.node)
-    if options.portable:
-        plan = portable(plan, host.symbols(plan))
-    added = host.additions(made.files) if options.host or options.format == "sh" else None
+    plan, added = made.plan, None
+    if options.node:
+        from orchestra.cli.planning.choice import chosen  # noqa: PLC0415
+
+        plan = chosen(plan, options.node)
+    if options.portable or options.host or options.format == "sh":
+        from orchestra.cli.planning import host  # noqa: PLC0415
+        from orchestra.plan.portable import portable  # noqa: PLC0415
+
+        plan = portable(plan, host.symbols(plan)) if options.portable else plan
+        added = host.additions(made.files) if options.host or options.format == "sh" else None
     return RENDERERS[options.format](plan, Setting(paint, added))

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from bisect import bisect_right
 from functools import cached_property
+from itertools import accumulate, count
+from operator import add
 from typing import TYPE_CHECKING
 
 from orchestra.dataclass import dataclass
@@ -31,7 +33,11 @@ class Source:
     @cached_property
     def lines(self) -> tuple[int, ...]:
         """The offsets at which its lines begin."""
-        return (0, *(found.end() for found in _BREAK.finditer(self.text)))
+        text = self.text
+        if text.isascii() and "\r" not in text:  # as nearly all are
+            *lines, _ = text.split("\n")
+            return tuple(map(add, accumulate(map(len, lines), initial=0), count()))
+        return (0, *(found.end() for found in _BREAK.finditer(text)))
 
     def place(self, offset: int) -> tuple[int, int]:
         """Return the 1-based line and column of an offset in code points."""

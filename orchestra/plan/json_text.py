@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
     Write = Callable[[Any, str], str]
 
-_INFINITY = float("inf")
+_NO_NUMBERS = {"nan": "NaN", "inf": "Infinity", "-inf": "-Infinity"}
 _PLACE = ("file", "line", "column", "end_line", "end_column")
 
 
@@ -42,7 +42,7 @@ class _Writing:
             bool: lambda value, _: "true" if value else "false",
             type(None): lambda _value, _: "null",
             int: lambda value, _: int.__repr__(value),
-            float: lambda value, _: _float(value),
+            float: lambda value, _: number(value),
             dict: self._mapping,
             tuple: self._list,
             list: self._list,
@@ -149,9 +149,7 @@ def _alone(names: list[str]) -> Callable[[Any], Any]:
     return lambda value: tuple(getattr(value, name) for name in names)
 
 
-def _float(value: float) -> str:
-    if value != value:  # noqa: PLR0124 - that is how one that is no number is told
-        return "NaN"
-    if value in (_INFINITY, -_INFINITY):
-        return "Infinity" if value > 0 else "-Infinity"
-    return float.__repr__(value)
+def number(value: float) -> str:
+    """Return the JSON text of a number with a point."""
+    text = float.__repr__(value)
+    return _NO_NUMBERS.get(text, text)

@@ -53,6 +53,15 @@ def test_text_is_the_rendered_plan(orchestra_beside: Command) -> None:
     assert "echo hello moon" in found.stdout
 
 
+def test_text_takes_no_module_of_other_formats(orchestra_beside: Command) -> None:
+    found = orchestra_beside("plan", "--no-cache", "good.yaml", PYTHONPROFILEIMPORTTIME="1")
+    imported = {line.rpartition("|")[2].strip() for line in found.stderr.splitlines()}
+    assert "orchestra.plan.render.details" in imported
+    others = ("shell.words", "drawing", "triggers", "conduct")
+    assert imported.isdisjoint(f"orchestra.plan.render.{name}" for name in others)
+    assert imported.isdisjoint({"orchestra.cli.planning.host", "orchestra.cli.planning.choice"})
+
+
 def test_json_is_the_plan_and_the_same_each_time(orchestra: Command) -> None:
     first, second = (orchestra("plan", "good.yaml", "--format", "json") for _ in range(2))
     assert (first.returncode, first.stderr) == (0, "")

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import pytest
 import yaml
 from hypothesis import given
@@ -83,3 +85,9 @@ def test_places_count_lines_as_yaml_does(text: str, offset: int) -> None:
     whole = source("f", text)
     line, column = whole.place(min(offset, len(text)))
     assert whole.lines[line - 1] + column - 1 == min(offset, len(text))
+
+
+@given(st.text(st.sampled_from("ab \n\r\x0b\x0c\x1c\x1e\x85\u2028\u2029ü"), max_size=30))
+def test_lines_begin_behind_what_yaml_takes_for_breaks(text: str) -> None:
+    ends = re.finditer("\r\n|[\n\r\x85\u2028\u2029]", text)
+    assert source("f.yaml", text).lines == (0, *(end.end() for end in ends))

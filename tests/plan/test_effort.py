@@ -13,6 +13,9 @@ from orchestra import pipeline
 from orchestra.errors import Problems
 from orchestra.load.files import load
 from orchestra.plan import codec
+from orchestra.plan.model import Component, Provenance
+from orchestra.plan.render.formats import FORMATS
+from tests.plan.records import at, node, plan
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -76,6 +79,39 @@ def test_a_node_takes_so_many_calls(tmp_path: Path) -> None:
     read, again = _counted(codec.loads, text)
     assert read / 110 < 700
     assert again == plan
+
+
+def test_a_node_is_shown_in_so_many_calls(tmp_path: Path) -> None:
+    counts = [_counted(FORMATS["text"], _nodes(tmp_path, number)[1])[0] for number in (2, 10, 110)]
+    assert (counts[2] - counts[1]) / 100 < 75
+
+
+def test_components_are_gone_through_once_for_all_containers() -> None:
+    counts: list[int] = []
+    for number in (2, 50, 100):
+        boxes = [node(f"/box{item}", "true", kind="container") for item in range(number)]
+        held = tuple(_held(f"/c{item}", box.id) for item, box in enumerate(boxes))
+        counts.append(_counted(FORMATS["text"], plan(*boxes, components=held))[0])
+    assert counts[2] < 2.15 * counts[1]
+
+
+def _held(identity: str, container: str) -> Component:
+    return Component(
+        identity,
+        identity[1:],
+        "/",
+        "demo",
+        "demo::Part",
+        container,
+        container,
+        "started",
+        {},
+        (),
+        {},
+        None,
+        at(9),
+        Provenance(),
+    )
 
 
 @pytest.mark.parametrize(

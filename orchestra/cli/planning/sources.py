@@ -13,9 +13,7 @@ from orchestra.dataclass import dataclass
 from orchestra.errors import DescriptionError, Problems, UsageError
 from orchestra.fields import field, replace
 from orchestra.location import displayed, is_file
-from orchestra.plan import codec
 from orchestra.plan.model import Plan
-from orchestra.plan.render import yaml_text
 
 if TYPE_CHECKING:
     from argparse import Namespace
@@ -98,6 +96,10 @@ def refuse_words(words: Sequence[str], path: str) -> None:
 
 def saved(path: str) -> Made:
     """Read a plan that `--format json` or `--format yaml` has written. Raises `UsageError` where it is none."""
+    # Few plans come from one.
+    from orchestra.plan import codec  # noqa: PLC0415
+    from orchestra.plan.render import yaml_text  # noqa: PLC0415
+
     text = Path(path).read_bytes()
     try:
         plan = codec.loads(text) if text.lstrip().startswith(b"{") else yaml_text.loads(text)

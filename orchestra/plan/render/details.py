@@ -4,44 +4,67 @@ from __future__ import annotations
 
 import json
 import shlex
-from itertools import groupby
-from typing import TYPE_CHECKING
+from json.encoder import encode_basestring
+from operator import attrgetter
+from typing import TYPE_CHECKING, Any, Final
 
-from orchestra.plan.render.conditions import alive_lines, dependency_line, ready_lines
-from orchestra.resolve.quantities import SIZES, UNLIMITED
-from orchestra.values import Restart
+from orchestra.plan.json_text import number
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 
     from orchestra.plan.model import Process
-    from orchestra.values import Limits, ParameterValue, Stop
+    from orchestra.values import ParameterValue
 
-_WIDTH = 11
-_LONGEST = 400  # characters of a value: the description of a robot has thousands, and JSON shows all of them
-_DEFAULT = Restart("no")
+_WIDTH: Final = 12
+_BESIDE: Final = _WIDTH * " "
+# Characters of a value: the description of a robot has thousands, and JSON shows all of them.
+_LONGEST: Final = 400
+_encoded: Final = json.JSONEncoder(ensure_ascii=False).encode
+# What few processes have, asked for in one call.
+_rare: Final = attrgetter("depends_on", "ready", "alive", "restart", "stop", "limits", "stdin", "lifecycle")
 
 
-def process_details(process: Process) -> Iterator[str]:
-    """Yield the lines; a setting that has nothing to say has no line."""
-    yield from labelled("command", _command(process).split("\n"))
-    yield from labelled("folder", [process.cwd] if process.cwd else [])
-    yield from labelled("environment", _environment(process))
-    yield from labelled(
-        "parameters", [f"{name}: {_shortened(scalar(value))}" for name, value in process.parameters.items()]
-    )
-    yield from labelled("files", [file.path for file in process.parameter_files])
-    yield from labelled("remaps", [f"{old} -> {new}" for old, new in process.remappings])
-    yield from labelled("output", [_output(process.output)] if process.output else [])
-    yield from labelled("after", map(dependency_line, process.depends_on))
-    yield from labelled("ready", ready_lines(process.ready) if process.ready else [])
-    yield from labelled("alive", alive_lines(process.alive) if process.alive else [])
-    yield from labelled("restart", [_restart(process.restart)] if process.restart else [])
-    yield from labelled("stop", [_stop(process.stop)] if process.stop else [])
-    yield from labelled("limits", _limits(process.limits) if process.limits else [])
-    yield from labelled("stdin", ["what is typed"] if process.stdin else [])
-    yield from labelled("lifecycle", [process.lifecycle] if process.lifecycle else [])
-    yield from labelled("required", ["the run ends with it"] if process.required else [])
+class Details:
+    """Tells what matters of processes, one after the other; words that many of them have are quoted once."""
+
+    def __init__(self) -> None:
+        self._word = _Quoted().__getitem__
+
+    def of(self, process: Process, margin: str) -> str:
+        """Return the lines, each behind the margin; a setting that has nothing to say has no line."""
+        command = " ".join(process.command if process.shell else map(self._word, process.command))
+        told = (f"sh: {command}" if process.shell else command).replace("\n", f"\n{margin}{_BESIDE}")
+        text = f"{margin}command     {told}\n"
+        if process.cwd:
+            text += labelled("folder", [process.cwd], margin)
+        if process.environment or not process.inherit_environment:
+            text += labelled("environment", _environment(process), margin)
+        if process.parameters:
+            values = [
+                f"{name}: {told if len(told := scalar(value)) <= _LONGEST else _shortened(told)}"
+                for name, value in process.parameters.items()
+            ]
+            text += labelled("parameters", values, margin)
+        if process.parameter_files:
+            text += labelled("files", [file.path for file in process.parameter_files], margin)
+        if process.remappings:
+            text += labelled("remaps", [f"{old} -> {new}" for old, new in process.remappings], margin)
+        if process.output:
+            text += labelled("output", [_output(process.output)], margin)
+        if any(_rare(process)):
+            from orchestra.plan.render.conduct import conduct  # noqa: PLC0415 - as few plans need it
+
+            text += "".join(labelled(label, values, margin) for label, values in conduct(process))
+        return f"{text}{margin}required    the run ends with it\n" if process.required else text
+
+
+class _Quoted(dict[str, str]):
+    """Words as a shell reads them back."""
+
+    def __missing__(self, word: str) -> str:
+        self[word] = quoted = shlex.quote(word)
+        return quoted
 
 
 def process_kind(process: Process) -> str:
@@ -52,24 +75,31 @@ def process_kind(process: Process) -> str:
 
 def scalar(value: ParameterValue | None) -> str:
     """Return a parameter value so that its type can be seen: text in quotes, lists in brackets."""
-    return json.dumps(value, ensure_ascii=False)
+    return (_WRITE.get(type(value)) or _encoded)(value)
+
+
+def _listed(values: Sequence[ParameterValue]) -> str:
+    return f"[{', '.join(map(scalar, values))}]"
+
+
+_WRITE: Final[Mapping[type, Callable[[Any], str]]] = {
+    str: encode_basestring,
+    float: number,
+    int: int.__repr__,
+    bool: {True: "true", False: "false"}.__getitem__,
+    tuple: _listed,
+    list: _listed,
+}
 
 
 def _shortened(value: str) -> str:
-    if len(value) <= _LONGEST:
-        return value
     return f"{value[:_LONGEST]} ... ({len(value) - _LONGEST} more characters, see --format json)"
 
 
-def labelled(label: str, values: Iterator[str] | list[str] | map[str]) -> Iterator[str]:
-    """Yield values below each other, the label before the first."""
-    for value in values:
-        yield f"{label:<{_WIDTH}} {value}"
-        label = ""
-
-
-def _command(process: Process) -> str:
-    return f"sh: {' '.join(process.command)}" if process.shell else shlex.join(process.command)
+def labelled(label: str, values: Iterable[str], margin: str) -> str:
+    """Return values below each other, each on a line of its own behind a margin, the label before the first."""
+    told = f"\n{margin}{_BESIDE}".join(values)
+    return f"{margin}{label.ljust(_WIDTH)}{told}\n" if told else ""
 
 
 def _output(output: str | dict[str, tuple[str, ...]]) -> str:
@@ -83,49 +113,3 @@ def _environment(process: Process) -> Iterator[str]:
         yield "nothing but"
     for name, value in process.environment.items():
         yield f"{name} unset" if value is None else f"{name}={shlex.quote(value)}"
-
-
-def _restart(restart: Restart) -> str:
-    budget = "" if restart.budget is None else f", {restart.budget} times at most"
-    growth = "" if restart.growth == _DEFAULT.growth else f", growing by the factor {restart.growth:g}"
-    jitter = "" if not restart.jitter else f", up to {100 * restart.jitter:g} % more at random"
-    return f"{restart.policy}, after {restart.delay:g} s to {restart.max_delay:g} s{growth}{jitter}{budget}"
-
-
-def _stop(stop: Stop) -> str:
-    return f"{stop.signal}, after {stop.timeout:g} s SIGTERM, after {stop.kill_timeout:g} s more SIGKILL"
-
-
-def _limits(limits: Limits) -> Iterator[str]:
-    if limits.cores is not None:
-        exclusive = ", which no other process has" if limits.exclusive else ""
-        yield f"cores {', '.join(_ranges(limits.cores))}{exclusive}"
-    if limits.nice is not None:
-        yield f"nice {limits.nice}"
-    if limits.scheduler is not None:
-        yield f"scheduler {limits.scheduler}{'' if limits.priority is None else f' at {limits.priority}'}"
-    if limits.memory is not None:
-        yield f"memory {_bytes(limits.memory)}"
-    for name, pair in limits.rlimits.items():
-        texts = ["unlimited" if item == UNLIMITED else _amount(name, item) for item in pair]
-        yield f"{name} {':'.join(dict.fromkeys(texts))}"
-
-
-def _ranges(cores: tuple[int, ...]) -> Iterator[str]:
-    """Yield numbers that follow each other as ranges."""
-    for _, group in groupby(enumerate(cores), lambda item: item[1] - item[0]):
-        numbers = [core for _, core in group]
-        yield str(numbers[0]) if len(numbers) == 1 else f"{numbers[0]}-{numbers[-1]}"
-
-
-def _amount(name: str, number: int) -> str:
-    return _bytes(number) if name in SIZES else str(number)
-
-
-def _bytes(size: int) -> str:
-    """Return a size in the greatest unit that says it exactly."""
-    for unit in ("", "K", "M", "G"):
-        if size % 1024 or not size:
-            return f"{size}{unit}"
-        size //= 1024
-    return f"{size}T"

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Final, Protocol
+from importlib import import_module
+from typing import TYPE_CHECKING, Any, Final, Protocol
 
-from orchestra.plan import codec
-from orchestra.plan.render import dot, mermaid, svg, text, yaml_text
 from orchestra.plan.render.setting import Setting
-from orchestra.plan.render.shell import script
 
 if TYPE_CHECKING:
     from orchestra.plan.model import Plan
@@ -20,17 +18,24 @@ class Format(Protocol):
         """Return the plan as text."""
 
 
-def _json(plan: Plan, setting: Setting = Setting(), /) -> str:  # noqa: B008 - it is frozen
-    del setting
-    return codec.dumps(plan, indent=2) + "\n"
+class _Late:
+    """A format whose module is imported for the first plan that is shown in it: nobody needs two of them."""
+
+    def __init__(self, name: str) -> None:
+        self._name = name
+
+    def __call__(self, plan: Plan, setting: Setting = Setting(), /) -> str:  # noqa: B008 - it is frozen
+        module: Any = import_module(f"orchestra.plan.render.{self._name}")
+        text: str = module.render(plan, setting)
+        return text
 
 
 FORMATS: Final[dict[str, Format]] = {
-    "text": text.render,
-    "json": _json,
-    "yaml": yaml_text.render,
-    "sh": script.render,
-    "mermaid": mermaid.render,
-    "dot": dot.render,
-    "svg": svg.render,
+    "text": _Late("text"),
+    "json": _Late("json_lines"),
+    "yaml": _Late("yaml_text"),
+    "sh": _Late("shell.script"),
+    "mermaid": _Late("mermaid"),
+    "dot": _Late("dot"),
+    "svg": _Late("svg"),
 }

@@ -13,9 +13,8 @@ from orchestra.dataclass import dataclass
 from orchestra.fields import field
 from orchestra.location import Span
 from orchestra.plan.model import Process
-from orchestra.plan.render.details import labelled, process_details, process_kind, scalar
+from orchestra.plan.render.details import Details, labelled, process_kind, scalar
 from orchestra.plan.render.setting import Setting
-from orchestra.plan.render.triggers import trigger_lines
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -36,28 +35,31 @@ def render(plan: Plan, setting: Setting = Setting(), /) -> str:  # noqa: B008 - 
         _section("host", _host(setting.additions), paint),
         _section("arguments", _arguments([item for item in plan.arguments if not item.given]), paint),
         _section("includes", _includes(plan, paint), paint),
-        _section("processes", _processes(plan, paint), paint),
+        _titled("processes", _processes(plan, paint), paint),
         _section("components", (_component(item, "") for item in elsewhere), paint),
-        _section("triggers", trigger_lines(plan.triggers), paint),
+        _section("triggers", _triggers(plan), paint),
         _section("skipped", map(_skipped, plan.skipped), paint),
     ]
-    return "\n".join("".join(f"{line}\n" for line in section) for section in sections if section)
+    return "\n".join(filter(None, sections))
 
 
-def _heading(plan: Plan, paint: Paint) -> list[str]:
+def _heading(plan: Plan, paint: Paint) -> str:
     counted = [
         (len(plan.processes), "process", "processes"),
         (len(plan.components), "component", "components"),
         (len(plan.triggers), "trigger", "triggers"),
     ]
     counts = ", ".join(f"{n} {one if n == 1 else many}" for n, one, many in counted if n)
-    return [f"{paint('strong', plan.file)}: {counts or 'nothing to run'}"]
+    return f"{paint('strong', plan.file)}: {counts or 'nothing to run'}\n"
 
 
-def _section(title: str, lines: Iterator[str], paint: Paint) -> list[str]:
+def _section(title: str, lines: Iterator[str], paint: Paint) -> str:
     """Return the indented lines under their title, nothing where there are none."""
-    indented = [f"{_INDENT}{line}" for line in lines]
-    return [paint("strong", title), *indented] if indented else []
+    return _titled(title, "".join([f"{_INDENT}{line}\n" for line in lines]), paint)
+
+
+def _titled(title: str, text: str, paint: Paint) -> str:
+    return f"{paint('strong', title)}\n{text}" if text else ""
 
 
 def _host(additions: Additions | None) -> Iterator[str]:
@@ -98,15 +100,28 @@ class _Include:
 def _includes(plan: Plan, paint: Paint) -> Iterator[str]:
     """Yield the files that are included, below those that include them, in the order in which they are come upon."""
     root = _Include()
-    for location in (
-        *(item.location for item in plan.processes),
-        *(item.location for item in plan.components),
-    ):
+    for location, count in _alike(plan):
         here = root
         for step in _steps(location):
             here = here.below.setdefault(step, _Include())
-            here.count += 1
+            here.count += count
     yield from _included(root, paint)
+
+
+def _alike(plan: Plan) -> Iterator[tuple[Location, int]]:
+    """Yield one place of each file that was included in one way, and how many processes and components are there."""
+    counts: dict[tuple[int, str], int] = {}
+    first: dict[tuple[int, str], Location] = {}
+    places = [process.location for process in plan.processes]
+    places += [component.location for component in plan.components]
+    for location in places:
+        chain = location.included_from
+        if chain:
+            key = id(chain), location.span.file
+            counts[key] = counts.get(key, 0) + 1
+            first.setdefault(key, location)
+    for key, location in first.items():
+        yield location, counts[key]
 
 
 def _steps(location: Location) -> Iterator[tuple[str, Span]]:
@@ -131,16 +146,20 @@ class _Namespace:
     below: dict[str, _Namespace] = field(default_factory=dict)
 
 
-def _processes(plan: Plan, paint: Paint) -> Iterator[str]:
-    root = _Namespace()
-    outside = [process for process in plan.processes if process.namespace is None]
+def _processes(plan: Plan, paint: Paint) -> str:
+    """Return each process with its lines, those of namespaces below the titles of these."""
+    root, known = _Namespace(), dict[str, _Namespace]()
+    telling, outside = _Telling(plan, paint), list[str]()
     for process in plan.processes:
-        if process.namespace is not None:
-            _at(root, process.namespace).processes.append(process)
-    for process in outside:
-        yield from _process(process, plan, paint)
-    if root.processes or root.below:
-        yield from _branch("/", root, plan, paint)
+        name = process.namespace
+        if name is None:
+            outside.append(telling.process(process, _INDENT))
+            continue
+        if name not in known:
+            known[name] = _at(root, name)
+        known[name].processes.append(process)
+    inside = telling.branch("/", root, _INDENT) if root.processes or root.below else ""
+    return "".join([*outside, inside])
 
 
 def _at(root: _Namespace, namespace: str) -> _Namespace:
@@ -151,19 +170,34 @@ def _at(root: _Namespace, namespace: str) -> _Namespace:
     return here
 
 
-def _branch(title: str, namespace: _Namespace, plan: Plan, paint: Paint) -> Iterator[str]:
-    yield paint("strong", title)
-    for process in namespace.processes:
-        yield from (_INDENT + line for line in _process(process, plan, paint))
-    for token, below in namespace.below.items():
-        yield from (_INDENT + line for line in _branch(f"{token}/", below, plan, paint))
+class _Telling:
+    """Tells of processes, with the components that each of them holds."""
 
+    def __init__(self, plan: Plan, paint: Paint) -> None:
+        self._paint = paint
+        self._details = Details()
+        self._held: dict[str, list[str]] = {}
+        for component in plan.components:
+            if component.process is not None:
+                told = _component(component, component.process)
+                self._held.setdefault(component.process, []).append(told)
 
-def _process(process: Process, plan: Plan, paint: Paint) -> Iterator[str]:
-    yield f"{paint('strong', process.id)}  {paint('faint', f'({process_kind(process)}, {process.location})')}"
-    yield from (_INDENT + line for line in process_details(process))
-    held = [_component(item, process.id) for item in plan.components if item.process == process.id]
-    yield from (_INDENT + line for line in labelled("components", held))
+    def branch(self, title: str, namespace: _Namespace, margin: str) -> str:
+        """Return a namespace and all that is in it, behind a margin."""
+        inner = margin + _INDENT
+        parts = [f"{margin}{self._paint('strong', title)}\n"]
+        parts += [self.process(process, inner) for process in namespace.processes]
+        parts += [self.branch(f"{token}/", below, inner) for token, below in namespace.below.items()]
+        return "".join(parts)
+
+    def process(self, process: Process, margin: str) -> str:
+        """Return what a process is, and below it what matters of it."""
+        told = self._paint("faint", f"({process_kind(process)}, {process.location})")
+        inner = margin + _INDENT
+        held = self._held.get(process.id)
+        components = labelled("components", held, inner) if held else ""
+        details = self._details.of(process, inner)
+        return f"{margin}{self._paint('strong', process.id)}  {told}\n{details}{components}"
 
 
 def _component(component: Component, container: str) -> str:
@@ -176,6 +210,14 @@ def _component(component: Component, container: str) -> str:
     lifecycle = f" brought to {component.lifecycle}" if component.lifecycle else ""
     plugin = f"{component.package}/{component.plugin}"
     return f"{component.id}: {plugin}{elsewhere}{late}{lifecycle}{values}{remaps}"
+
+
+def _triggers(plan: Plan) -> Iterator[str]:
+    if not plan.triggers:
+        return iter(())
+    from orchestra.plan.render.triggers import trigger_lines  # noqa: PLC0415 - few plans have any
+
+    return trigger_lines(plan.triggers)
 
 
 def _skipped(skipped: Skipped) -> str:

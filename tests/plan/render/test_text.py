@@ -41,7 +41,7 @@ from orchestra.plan.reactions import (
     TriggerEvent,
     UnregisterAction,
 )
-from orchestra.plan.render.details import process_details
+from orchestra.plan.render.details import Details
 from orchestra.plan.render.formats import FORMATS
 from orchestra.values import Limits, Restart, Stop
 from tests.plan import records
@@ -333,7 +333,7 @@ def test_signs_of_life_limits_and_dependencies_are_said() -> None:
 
 def _said(process: Process, label: str) -> list[str]:
     """Return what stands behind a label."""
-    lines = list(process_details(process))
+    lines = Details().of(process, "").splitlines()
     first = next(index for index, line in enumerate(lines) if line.startswith(label))
     last = next((index for index in range(first + 1, len(lines)) if lines[index][0] != " "), len(lines))
     return [line[12:] for line in lines[first:last]]
