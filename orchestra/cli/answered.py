@@ -51,10 +51,6 @@ class Watch:
 
     def keep(self, answer: bytes, told: str) -> None:
         """Keep what was written, for the next time. Does nothing where that cannot be."""
-        try:
-            answer.decode("utf-8", "surrogatepass")
-        except UnicodeDecodeError:  # it has bytes of a command line or a path, and what is kept is text
-            return
         written = self._kept.keep(answer, told) if self._kept else None
         if written:
             sys.stdout.flush()  # before anything else is done

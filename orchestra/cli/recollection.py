@@ -23,9 +23,9 @@ def recollection(where: str, key: str) -> Remembered | None:
     found = Store(where).read(key)
     if found is None:
         return None
-    record, result = found
+    record, result, document = found
     try:
-        known = Remembered(result["document"].encode("utf-8", "surrogatepass"), result["told"])
+        known = Remembered(document, result["told"])
         still = unchanged(result["code"]) and World(as_called(os.environ), _nobody_asks).holds(record)
     except (KeyError, TypeError, ValueError, AttributeError):
         return None

@@ -62,8 +62,7 @@ class Memory:
                 code = signs(loaded(watched.code))
             except OSError:  # somebody works on it
                 return
-            result = {"document": document.decode("utf-8", "surrogatepass"), "told": told, "code": code}
-            self._store.write(self._name, record, result)
+            self._store.write(self._name, record, {"told": told, "code": code}, document)
             self._store.prune()
 
         return written

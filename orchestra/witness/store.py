@@ -28,25 +28,29 @@ class Store:
         self._folder = folder
         self._most = most
 
-    def read(self, key: str) -> tuple[Record, Any] | None:
-        """Return what a result depends on, and the result; None where there is none that can be read."""
+    def read(self, key: str) -> tuple[Record, Any, bytes] | None:
+        """Return what a result depends on, the result, and its document; None where there is none to be read."""
         body = self.content(key)
         if body is None:
             return None
+        told, _, document = body.partition(b"\n")
         try:
-            found = json.loads(body)
+            found = json.loads(told)
             if found["key"] != key:
                 return None
-            return Record.from_data(found["record"]), found["result"]
+            return Record.from_data(found["record"]), found["result"], document
         except (ValueError, KeyError, TypeError, RecursionError):
             return None
 
-    def write(self, key: str, record: Record, result: Any) -> None:
-        """Keep a result, in place of any earlier one. Where the disk refuses, nothing is kept."""
+    def write(self, key: str, record: Record, result: Any, document: bytes = b"") -> None:
+        """Keep a result, in place of any earlier one. Where the disk refuses, nothing is kept.
+
+        The result is JSON data; the document that belongs to it may be of any size, and is kept as it is.
+        """
         if record.unknown:
             return
-        body = json.dumps({"key": key, "record": record.whole().as_data(), "result": result})
-        self.put(key, body.encode("utf-8", "surrogatepass"))
+        told = json.dumps({"key": key, "record": record.whole().as_data(), "result": result})
+        self.put(key, b"%b\n%b" % (told.encode(), document))
 
     def content(self, key: str) -> bytes | None:
         """Return what is kept with a key, as we have written it; None where there is nothing."""
