@@ -44,12 +44,14 @@ _text: Final = _texts()
 
 def digest(process: Process) -> str:
     """Return the SHA-256 of command, environment, cwd, parameter content, stdin, shell and limits."""
+    # As the encoder of plans has them, in a fifth of its time.
+    files = [{"path": file.path, "content": file.content} for file in process.parameter_files]
     return digest_of(
         process.command,
         (process.environment, process.inherit_environment),
         process.cwd,
         process.parameters,
-        process.parameter_files,
+        files,
         process.stdin,
         process.shell,
         process.limits,
