@@ -25,12 +25,12 @@ class Form:
         first: tuple[list[str], Compiled],
         second: tuple[list[str], Compiled],
         places: Mapping[int, str | None],
-        words: set[str],
+        taken: set[Any],
     ) -> None:
         """Learn the form of two texts that were split, with their codes, which are alike but at places.
 
         These are the numbers of literals and of ends of names, with what stands before those, or None for comments;
-        `words` are all other names. Raises `ValueError` where there is no form.
+        `taken` are values that may stand nowhere else. Raises `ValueError` where there is no form.
         """
         (parts, compiled), (others, other) = first, second
         self._first = compiled
@@ -44,7 +44,7 @@ class Form:
             _kind(parts[2 * index + 1], before) for index, before in places.items() if before is not None
         ]
         self._number(own)
-        self._taken = {(Name, word) for word in words}
+        self._taken = taken
         keys, other_keys = self._keys(own), self._keys(values)
         if keys is None or other_keys is None:
             raise ValueError("what is equal in one text is not in the other one")

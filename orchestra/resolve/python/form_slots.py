@@ -1,19 +1,21 @@
 """Where literals stand in the text of a Python file that decide nothing of its code but constants, and names nothing.
 
-Such a literal is a whole element of a call, a list, a tuple or a dictionary, or all that a statement assigns: no
-operator is applied to it, so that the compiler works nothing out with it, and whether it is true decides no jump. Such
-a name ends with a number and is that of a variable of a function, which nothing else is called: `node_12`.
+Such a literal is a whole element of a call, a list, a tuple or a dictionary, or all that a statement assigns, in a
+statement that makes, calls, goes through or returns things and does nothing else: no operator is applied to it, so that
+the compiler works nothing out with it, and whether it is true decides no jump. Such a name ends with a number, is that
+of a variable of a function, which nothing else is called (`node_12`), and all statements of its file are like that.
+
+All of this is told by the text in which each literal is as short as it can be; what stands in quotes says nothing.
 """
 
 from __future__ import annotations
 
 import re
-import sys
-from keyword import iskeyword
+from keyword import iskeyword, kwlist
 from typing import TYPE_CHECKING, Any, Final
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterator, Sequence
+    from collections.abc import Collection, Iterable, Iterator, Sequence
 
 # A comment, a text, a number, or that at the end of a name. Texts of one line without backslashes come first.
 _LEXEME: Final = re.compile(
@@ -25,24 +27,27 @@ _LEXEME: Final = re.compile(
     ))""",
     re.DOTALL | re.VERBOSE,
 )
-_TOKEN: Final = re.compile(
-    r"\n|[A-Za-z_][\w.]*|\*\*=?|//=?|<<=?|>>=?|->|[-+*/%@&|^=!<>:]=|\\\n|[^\s]", re.ASCII
-)
+QUOTES: Final = "'\""
+_TEXT: Final = re.compile(r"""'[^'\\\n]*'|"[^"\\\n]*\"""")
 _NAME: Final = re.compile(r"[A-Za-z_]\w*\Z", re.ASCII)
 _WORD: Final = re.compile(r"[A-Za-z_]\w*", re.ASCII)
-_TEXT: Final = re.compile(r"""'[^'\\\n]*'|"[^"\\\n]*\"""")
-QUOTES: Final = "'\""
+# What begins a text in braces, and all of one that holds nothing but names, calls and the like.
+_BRACES: Final = re.compile(r"(?:\A|\W)[fF]\Z")
+_FLAT: Final = re.compile(r"""(["'])(?:""|'')?(?:[^{}'"\\]|\{[^{}'"\\]*\})*["']+""")
+# Without literals and blanks: signs of plain statements, of numbers and of what a function returns, and what is not
+# plain of that.
+_PLAIN: Final = b'()[]{},:=."_0123456789abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ'
+_SIGNED: Final = tuple(f"{before}-0" for before in "([{,=:")
+_NOT_PLAIN: Final = ("==", ":=", ")[", "][", "}[", '"[')
+_IN_BRACES: Final = '@""'  # for a text in braces, which is not plain
+_ENDING: Final = re.compile(r"[()\[\]{}\n]")
+_KEYWORDS: Final = frozenset(kwlist) - {
+    *("from", "import", "as", "def", "return", "None", "True", "False", "for", "in")
+}
+_PATTERNS: Final = frozenset({"match", "case"})
+_FAR: Final = 200  # what is further away is not looked for
 _BEFORE: Final = frozenset("([{,=:")
 _BEHIND: Final = frozenset(")]},:")
-_OPENING: Final = frozenset("([{")
-_CLOSING: Final = frozenset(")]}")
-_PLAIN: Final = frozenset((*"()[]{},:=.\n", "->"))
-_PLAIN_KEYWORDS: Final = frozenset(("from", "import", "as", "def", "return", "None", "True", "False"))
-_OF_A_VALUE: Final = frozenset(")]}'\"")  # a bracket behind these looks into it
-_ENDS_WITH_WORD: Final = re.compile(r"\w\Z")
-_OPERATORS: Final = frozenset(
-    ("%", "*", "**", "+", "-", "/", "//", "@", "|", "&", "^", "~", "<", ">", "<<", ">>")
-)
 
 
 def split(text: str) -> list[str]:
@@ -50,46 +55,20 @@ def split(text: str) -> list[str]:
     return _LEXEME.split(text)
 
 
-def is_plain(parts: Sequence[str]) -> bool:
-    """Return whether a text that was split imports, defines functions, assigns, calls and returns, and nothing else.
+class Name(str):
+    """The name of a variable."""
 
-    Then its code has no jumps, and the compiler works nothing out but signs of numbers and which values are constant.
-    """
-    before = ""
-    for index in range(0, len(parts), 2):
-        literal = parts[index + 1][0] if index + 1 < len(parts) else "\n"
-        if literal in QUOTES and _ENDS_WITH_WORD.search(parts[index]):
-            return False  # f'{name}', b'bytes'
-        signs = _TOKEN.findall(parts[index])
-        if literal.isdigit() and signs and signs[-1] == "-" and (signs[-2:-1] or [before])[0] in _BEFORE:
-            del signs[-1]
-        for sign in signs:
-            words = () if sign in _PLAIN else sign.split(".")
-            if not all(map(_is_plain_word, words)) or (sign == "[" and before in _OF_A_VALUE):
-                return False
-            before = sign
-        before = before if literal in "#\n" else literal
-    return True
-
-
-def _is_plain_word(word: str) -> bool:
-    return word.isidentifier() and (word in _PLAIN_KEYWORDS or not (iskeyword(word) or word == "match"))
+    __slots__ = ()
 
 
 def key_of(literal: str) -> Any:
-    """Return the value of a literal, a number with its type, for 1 and 1.0 are two constants; a name as such.
+    """Return the value of a literal, a number with its type, for 1 and 1.0 are two constants.
 
     None where it is not plain: the same value may be written in several ways.
     """
     if literal[0] in QUOTES:
         return literal[1:-1] if _TEXT.fullmatch(literal) else None
-    return number_of(literal) if literal[0].isdigit() else (Name, literal)
-
-
-class Name(str):
-    """The name of a variable."""
-
-    __slots__ = ()
+    return number_of(literal)
 
 
 def number_of(literal: str) -> Any:
@@ -101,92 +80,117 @@ def number_of(literal: str) -> Any:
     return (type(number), number) if repr(number) == literal else None
 
 
-def slots(parts: Sequence[str], variables: Collection[str]) -> tuple[dict[int, str], set[str]]:
-    """Return the numbers of the literals, in a text that was split, whose values may be others, and of ends of names.
+class Slots:
+    """The literals and ends of names of a text that was split that may be others."""
 
-    With each goes what stands before it of the same name. Names are those of `variables`. Values are equal to none that
-    may decide something, and to no other name, which are the second: that may be a constant too, as those of keywords
-    are. So may 0 be, where nobody has written it.
+    def __init__(self, parts: Sequence[str], variables: Collection[str]) -> None:
+        """Look at a text; names are those of `variables`. Raises `ValueError` where there may be no others in it."""
+        self._parts = parts
+        self._variables = variables
+        self._text, self._places = _bare(parts)
+        words = set(_WORD.findall(self._text))
+        if "\\" in self._text or not words.isdisjoint(_PATTERNS):
+            raise ValueError("there is what is not looked into")
+        is_plain = _is_plain(self._text)
+        self._kept = [] if is_plain else list(_kept(self._text))
+        self.is_plain = is_plain and "for" not in words
+
+    def at(self, indices: Iterable[int]) -> tuple[dict[int, str | None], set[Any]]:
+        """Return what stands before each of some literals of the same name, None for comments; and values of others.
+
+        Those are what nothing else may be. Raises `ValueError` where a literal decides something.
+        """
+        found = {index: self._before(index) for index in indices}
+        literals = {text for index, text in enumerate(self._parts[1::2]) if index not in found}
+        others = {key_of(text) for text in literals if text[0] != "#"}
+        names = {f"{before}{self._parts[2 * index + 1]}" for index, before in found.items() if before}
+        words = set(_WORD.findall("".join(self._parts))) - names if names else ()
+        return found, others | {(int, 0), *((Name, word) for word in words)}
+
+    def _before(self, index: int) -> str | None:
+        literal = self._parts[2 * index + 1]
+        if literal[0] == "#":
+            return None
+        name = _NAME.search(self._parts[2 * index]) if literal.isdigit() else None
+        if name is not None:
+            if self.is_plain and name[0] + literal in self._variables:
+                return name[0]
+            raise ValueError("a name that is known elsewhere")
+        if key_of(literal) is None or not self._decides_nothing(self._places[index], literal[0] in QUOTES):
+            raise ValueError("a literal decides something")
+        return ""
+
+    def _decides_nothing(self, place: int, is_text: bool) -> bool:
+        """Return whether what stands at a place is a whole element, by what stands next to it."""
+        if any(begin <= place < end for begin, end in self._kept):
+            return False
+        before = self._text[max(place - _FAR, 0) : place].rstrip()
+        rest = self._text[place + (2 if is_text else 1) : place + _FAR].lstrip(" \t")
+        last, behind = before[-1:], rest.lstrip()[:1]
+        if last == "=" and rest[:1] == "\n":  # of a statement, or a call that goes on
+            return True
+        if last not in _BEFORE or behind not in _BEHIND or not (last and behind):
+            return False
+        if last not in "([":
+            return True
+        word = _NAME.search(before, 0, len(before) - 1)
+        is_named = word is not None and not iskeyword(word[0])
+        if last == "[":
+            return is_text or not is_named
+        return is_named or behind != ")"
+
+
+def _bare(parts: Sequence[str]) -> tuple[str, list[int]]:
+    """Return a text that was split without comments, its literals as short as can be, and where each is.
+
+    Raises `ValueError` where there are texts of other kinds than plain ones and simple ones in braces.
     """
-    names = dict(_ends_of_names(parts))
-    keys = [
-        None if part[0] == "#" or index in names else key_of(part) for index, part in enumerate(parts[1::2])
-    ]
-    found, words = _candidates(parts)
-    full = {index: before + parts[2 * index + 1] for index, before in names.items()}
-    words |= {name for name in full.values() if name not in variables}
-    others = {key for index, key in enumerate(keys) if key is not None and index not in found}
-    kept = others | words | {(int, 0), None}
-    places = {index: "" for index in found if keys[index] not in kept}
-    places |= {index: before for index, before in names.items() if full[index] not in words}
-    texts = (part for index, part in enumerate(parts[1::2]) if index not in places and part[0] != "#")
-    words.update(_WORD.findall(" ".join(texts)))  # code in texts: f"{node_12}"
-    return dict(sorted(places.items())), words
-
-
-def _ends_of_names(parts: Sequence[str]) -> Iterator[tuple[int, str]]:
-    """Yield the numbers of what ends names, with what stands before."""
-    for index, part in enumerate(parts[1::2]):
-        before = _NAME.search(parts[2 * index]) if part.isdigit() else None
-        if before is not None:
-            yield index, before[0]
-
-
-def _candidates(parts: Sequence[str]) -> tuple[dict[int, None], set[str]]:
-    """Return the numbers of literals that stand where they decide nothing; and the words of the text."""
-    found: dict[int, None] = {}
-    words: set[str] = set()
-    around: list[tuple[str, str, int]] = []
-    before, last, closed = "\n", -1, sys.maxsize
+    found, places = [], []
+    at = 0
+    before = ""
     for index, part in enumerate(parts):
+        bare = part
         if index & 1:
-            if part[0] != "#":
-                last, token, before = index, before, part
-            continue
-        for sign in _TOKEN.findall(part):
-            if (sign == "\n" and around) or sign == "\\\n":
-                continue
-            if last >= 0:
-                if _decides_nothing(parts[last], token, sign, around):
-                    found[last // 2] = None
-                last = -1
-            _forget(found, closed, sign)
-            closed = sys.maxsize
-            if sign in _OPENING:
-                around.append((sign, before, len(found)))
-            elif sign in _CLOSING and around:
-                _, outside, count = around.pop()
-                closed = sys.maxsize if _is_named(outside) else count
+            places.append(at)
+            if part[0] in QUOTES:
+                bare = '""' if not (before.isalnum() or before == "_") else _in_braces(parts[index - 1], part)
             else:
-                words.update(sign.split("."))
-            before = sign
-    return found, words
+                bare = "" if part[0] == "#" else "0"
+        else:
+            before = part[-1:]
+        found.append(bare)
+        at += len(bare)
+    return "".join(found), places
 
 
-def _forget(found: dict[int, None], count: int, behind: str) -> None:
-    """Keep so many of what was found where the compiler works something out with the rest: (1, 2)[0] + 3."""
-    if behind == "[" or behind in _OPERATORS:
-        while len(found) > count:
-            found.popitem()
+def _in_braces(before: str, literal: str) -> str:
+    if _BRACES.search(before) is None or _FLAT.fullmatch(literal) is None:
+        raise ValueError("a text of another kind")
+    return _IN_BRACES
 
 
-def _decides_nothing(literal: str, before: str, behind: str, around: Sequence[tuple[str, str, int]]) -> bool:
-    """Return whether a literal is a whole element, by the tokens next to it and the brackets that are open there."""
-    if not around:  # a statement that assigns it
-        return before == "=" and behind == "\n"
-    sign, outside, _ = around[-1]
-    if before not in _BEFORE or behind not in _BEHIND or outside in _OPERATORS:
+def _is_plain(text: str) -> bool:
+    """Return whether what has no literals imports, defines functions, assigns, calls, returns, goes through things.
+
+    The compiler works nothing out in it but signs of numbers and which values are constant; it asks for no truth.
+    """
+    bare = "".join(text.split()).replace("->", "")
+    if "-" in bare:
+        for signed in _SIGNED:
+            bare = bare.replace(signed, signed[0])
+    if bare.encode().translate(None, _PLAIN) or any(sign in bare for sign in _NOT_PLAIN):
         return False
-    if sign == "{" and ":" not in (before, behind):
-        return False  # of a set, whose order depends on what is in it
-    named = _is_named(outside)
-    if sign == "[" and (named or outside in _CLOSING or outside[-1] in QUOTES):
-        return named and literal[0] in QUOTES  # a subscript, else of what the compiler may look into
-    return named or not (before == "(" and behind == ")")  # else in brackets alone
+    words = _WORD.findall(text)
+    return _KEYWORDS.isdisjoint(words) and words.count("for") == words.count("in")
 
 
-def _is_named(outside: str) -> bool:
-    """Return whether a bracket behind a token calls or asks what has a name."""
-    return (
-        (outside[-1].isalnum() or outside[-1] == "_") and outside[0] not in QUOTES and not iskeyword(outside)
-    )
+def _kept(text: str) -> Iterator[tuple[int, int]]:
+    """Yield where statements begin and end that are not plain."""
+    begin = depth = 0
+    for sign in _ENDING.finditer(text + "\n"):
+        if sign[0] != "\n":
+            depth += 1 if sign[0] in "([{" else -1
+        elif depth == 0:
+            if not _is_plain(text[begin : sign.end()]):
+                yield begin, sign.end()
+            begin = sign.end()

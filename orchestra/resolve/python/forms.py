@@ -25,7 +25,7 @@ from typing import TYPE_CHECKING, Final
 
 from orchestra.resolve.python.form import Form
 from orchestra.resolve.python.form_codes import variables
-from orchestra.resolve.python.form_slots import is_plain, slots, split
+from orchestra.resolve.python.form_slots import Slots, split
 
 if TYPE_CHECKING:
     from orchestra.compat.looks import Compiled
@@ -92,38 +92,30 @@ class First:
         self._compiled = compiled
         self._parts = parts
         self._between = parts[::2]
-        self._places: dict[int, str] | None = None
-        self._words: set[str] = set()
+        self._slots: Slots | None = None
         self._others = set[int]()
-        self._is_plain = True
+        self._is_known = False
         self._tries = _TRIES
 
     def learns(self, parts: list[str], compiled: Compiled) -> bool:
         """Return whether there is a form of this file and another one, or cannot be one with any."""
         if self._tries == 0 or parts[::2] != self._between:
             return False
-        if self._places is None:
-            self._is_plain = self._is_plain and is_plain(self._parts)
-            if not self._is_plain:
-                return True
-            self._places, self._words = slots(self._parts, variables(self._compiled.code))
         self._tries -= 1
+        with suppress(Exception):  # as below
+            if not self._is_known:
+                self._is_known = True
+                self._slots = Slots(self._parts, variables(self._compiled.code))
+        if self._slots is None:
+            return True
         own, literals = self._parts[1::2], parts[1::2]
         others = self._others.union(index for index, text in enumerate(literals) if text != own[index])
         with suppress(Exception):  # whatever stands against it
-            places = {index: _slot(own[index], index, self._places) for index in sorted(others)}
-            self.form = Form((self._parts, self._compiled), (parts, compiled), places, self._words)
+            places, taken = self._slots.at(sorted(others))
+            self.form = Form((self._parts, self._compiled), (parts, compiled), places, taken)
             self._others = others
             return True
         return False
-
-
-def _slot(text: str, index: int, places: dict[int, str]) -> str | None:
-    """Return what stands before a literal of the same name, None for a comment that says nothing of how files are.
-
-    Raises `KeyError` where a literal decides something.
-    """
-    return None if text.startswith("#") else places[index]
 
 
 FORMS: Final = Forms()

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from orchestra.compat.looks import LOOKS, Compiled
 from orchestra.resolve.python.form_codes import is_same
-from orchestra.resolve.python.form_slots import is_plain, split
+from orchestra.resolve.python.form_slots import Slots, split
 from orchestra.resolve.python.forms import Forms
 
 if TYPE_CHECKING:
@@ -193,6 +193,13 @@ def test_literals_that_decide_something_are_left_to_the_compiler(first: str, oth
         known.code(text + _LITERAL)
 
 
+def _is_plain(parts: list[str]) -> bool:
+    try:
+        return Slots(parts, ()).is_plain
+    except ValueError:
+        return False
+
+
 @pytest.mark.parametrize(
     "text",
     [
@@ -203,12 +210,61 @@ def test_literals_that_decide_something_are_left_to_the_compiler(first: str, oth
     ],
 )  # fmt: skip
 def test_what_the_compiler_may_work_out_has_no_form(text: str) -> None:
-    assert not is_plain(split(f"from a import b\n{text}\n"))
+    assert not _is_plain(split(f"from a import b\n{text}\n"))
 
 
 def test_what_generated_files_do_has_a_form() -> None:
-    assert is_plain(split(_filled(_LAUNCH_FILE, ["'a'", "2", "'c'", "'d'", '"e"', "6.5", "'g'"])))
-    assert is_plain(split("x = [-1, {'a': -1.5}, call(-2, b=-3), None, True]  # it's\n"))
+    assert _is_plain(split(_filled(_LAUNCH_FILE, ["'a'", "2", "'c'", "'d'", '"e"', "6.5", "'g'"])))
+    assert _is_plain(split("x = [-1, {'a': -1.5}, call(-2, b=-3), None, True]  # it's\n"))
+
+
+_LOOPING = """\
+from names import Node
+
+ARGUMENTS = [f'{sign}-{sign}' for sign in ('a', 'b')]
+
+
+def generate_launch_description(*names):
+    nodes = [
+        Node(package='package', name=name, rate=@2@, parameters=[{'use_sim_time': True, 'frame': '@1@'}])
+        for name in ['@1@_left', '@1@_right', 'middle']
+    ]
+    for number in range(@2@, @3@):
+        nodes.append(Node(name=f'node{number}', rate=number + 0.5))
+        if number % 2 == 0:
+            nodes.append(Node(name='even', args=['%d' % number, -1]))
+    try:
+        nodes.append(Node('a', 'b', 'c', 'd'))
+    finally:
+        found = nodes if nodes else ['nothing']
+    return found
+"""
+
+
+def test_loops_and_what_else_is_the_same_in_files_are_part_of_forms() -> None:
+    known = Files()
+    for number in range(10, 30):
+        known.code(_filled(_LOOPING, [f"robot{number**2}", f"{number * 20}", f"{number * 30 + 1}"]))
+    assert known.compiled == 2
+
+
+@pytest.mark.parametrize("name", ["left_", "'a' if", "{number}-", "-2", "% 3"])
+def test_what_is_looked_at_or_worked_with_is_part_of_no_form(name: str) -> None:
+    """Each file differs in a statement that does more than to make things."""
+    known, mended = (
+        Files(),
+        {
+            "left_": ("'middle'", "('left_', @4@)[0]"),
+            "'a' if": ("if nodes else", "if '@4@' else"),
+            "{number}-": ("{number}", "{number}-@4@"),
+            "-2": ("-1", "-1 - @4@"),
+            "% 3": ("% 2 == 0", "% @4@ == 0"),
+        }[name],
+    )
+    for number in range(10, 15):
+        text = _LOOPING.replace(*mended)
+        known.code(_filled(text, ["robot", "20", "30", f"{number}"]))
+    assert known.compiled == 5
 
 
 def test_numbered_variables_are_part_of_no_form() -> None:
