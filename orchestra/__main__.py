@@ -23,6 +23,16 @@ _READING = {"check", "plan", "convert", "format", "explain"}  # commands that re
 _MANY = 100_000  # objects that may become garbage before somebody looks for it
 
 
+def command() -> None:
+    """Be the command: this process ends with it."""
+    status = main()
+    if sys.argv[1:] and sys.argv[1] in _READING:
+        from orchestra.cli.leaving import end_untidied
+
+        end_untidied(status)
+    sys.exit(status)
+
+
 @roomy  # whatever forks below has it, too
 def main() -> int:
     """Carry out the command line and return the exit status."""
@@ -144,4 +154,6 @@ def _resolve(words: list[str], stream: BinaryIO) -> int | Answer | Settled:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    if vars(sys.modules["__main__"]) is globals():
+        command()
+    sys.exit(main())  # in the process of somebody else, who goes on: `runpy`

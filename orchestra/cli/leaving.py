@@ -1,11 +1,12 @@
-"""What code of launch files leaves running when nothing is launched: it ends with the command."""
+"""The end of a command that launches nothing: what code of launch files leaves running ends with it."""
 
 from __future__ import annotations
 
+import atexit
 import os
 import sys
 from contextlib import contextmanager, suppress
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -70,3 +71,36 @@ def end_at_once(status: int) -> None:
         with suppress(OSError):  # nobody reads it any more
             stream.flush()
     os._exit(status)
+
+
+def spare(*made: object) -> None:
+    """Keep what a command has made until its process ends: to take a large plan apart costs a third of showing it."""
+    _spared[:] = made
+
+
+_spared: list[object] = []
+
+
+def end_untidied(status: int) -> None:
+    """End this process as the interpreter does, but for taking apart each of its objects.
+
+    Where somebody looks on, as a debugger, a profiler, or who counts what tests reach, it returns and does nothing.
+    """
+    if _is_looked_at():
+        return
+    atexit._run_exitfuncs()  # noqa: SLF001 - there is no other way, and nothing is called twice
+    try:
+        sys.stdout.flush()
+        sys.stderr.flush()
+    except (OSError, ValueError):  # the interpreter has a status of its own for that
+        return
+    os._exit(status)
+
+
+_MOST_TOOLS = 6
+
+
+def _is_looked_at() -> bool:
+    monitoring: Any = getattr(sys, "monitoring", None)  # since 3.12
+    tools = map(monitoring.get_tool, range(_MOST_TOOLS)) if monitoring else ()
+    return bool(sys.flags.inspect or sys.gettrace() or sys.getprofile() or any(tools))

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.cli import boundary, colour, inputs
 from orchestra.cli.answered import Watch, give
+from orchestra.cli.leaving import spare
 from orchestra.cli.plain import plain
 from orchestra.cli.remembered import NO_CACHE
 from orchestra.errors import DescriptionError, UsageError
@@ -95,6 +96,7 @@ def run(options: Namespace) -> int:
         text = _explained(options, made, paint) if options.explain else _shown(options, made, paint)
     answer = text.encode(errors="surrogateescape")  # words may have bytes that are no Unicode
     give(answer, told)
+    spare(made)
     if made.file is not None and not made.files:
         watch.keep(answer, told)
     return boundary.OK

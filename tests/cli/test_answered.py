@@ -67,7 +67,9 @@ def place(tmp_path: Path) -> Place:
     return Place(tmp_path)
 
 
-@pytest.mark.parametrize("words", [(), ("--format", "json"), ("--explain", "/nobody")], ids=str)
+@pytest.mark.parametrize(
+    "words", [(), ("--format", "json"), ("--explain", "/nobody"), ("robot:=\udcff",)], ids=ascii
+)
 def test_the_same_words_get_the_same_answer_without_a_plan_being_made(
     place: Place, words: tuple[str, ...]
 ) -> None:
