@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, Final
 from orchestra.description.text import Pieces
 from orchestra.location import inside, new_location
 from orchestra.patterns import pattern
-from orchestra.resolve.context import LateValue
+from orchestra.resolve.late_values import LateValue
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -55,7 +55,7 @@ def bare_words(template: MatchedTemplate, context: Context) -> tuple[Value, ...]
         known = context.variables.known(pieces.variables)
         if known is None:
             return None
-        found = _words_of(pieces.pieces, *known)
+        found = _words_of(pieces.pieces, known)
     words: list[Any] = []
     for text, at, reads in found:
         word: Any = _new(WordValue)
@@ -69,7 +69,7 @@ def bare_words(template: MatchedTemplate, context: Context) -> tuple[Value, ...]
 
 
 def _words_of(
-    pieces: Sequence[Piece], values: Sequence[str], reads: Sequence[Read]
+    pieces: Sequence[Piece], reads: Sequence[Read]
 ) -> list[tuple[str, tuple[int, int], tuple[Read, ...]]]:
     """Return each word with the offsets at which it stands, and what was read for it."""
     words: list[tuple[str, tuple[int, int], tuple[Read, ...]]] = []
@@ -83,7 +83,7 @@ def _words_of(
             at += len(piece)
         else:
             end = at + piece.length
-            found = [(values[number], (at, end), (reads[number],))]
+            found = [(reads[number].value, (at, end), (reads[number],))]
             at, number = end, number + 1
         if found and found[0][1][0] == last:  # behind the word before it without a blank
             (text, (begin, _), noted), (more, (_, end), others) = words.pop(), found[0]

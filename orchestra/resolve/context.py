@@ -4,20 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from collections.abc import Set as AbstractSet
-from typing import TYPE_CHECKING, Any, Final, Literal, NamedTuple, Protocol, TypeAlias
+from typing import TYPE_CHECKING, Final, Literal, NamedTuple, Protocol, TypeAlias
 
 from orchestra.dataclass import dataclass, maker
 from orchestra.description.text import Opaque
 from orchestra.errors import Problems
 from orchestra.fields import field
-from orchestra.location import Location, Span, location_of, new_location
+from orchestra.location import Location, Span, new_location
 from orchestra.resolve.inputs import Inputs
 
 if TYPE_CHECKING:
     from contextlib import AbstractContextManager
 
     from orchestra.description.entity import Entity
-    from orchestra.description.text import MatchedTemplate, Template
+    from orchestra.description.text import Template
     from orchestra.resolve.weights import Weights
 
 ReadKind: TypeAlias = Literal["variable", "environment", "parameter", "namespace"]
@@ -74,75 +74,6 @@ new_read = maker(Read)
 new_value = maker(Value)
 
 
-class LateValue(Value):
-    """A value that works out its place when somebody asks, which few do; equal to any other that says the same."""
-
-    __slots__ = ()
-
-    def __new__(cls, *values: Any, **named: Any) -> Value:  # type: ignore[misc] # noqa: ANN401 - any field
-        """Return an ordinary one: what is made of it with a change has values of its own."""
-        return Value(*values, **named)
-
-    def __eq__(self, other: object) -> bool:
-        if not isinstance(other, Value) or not (type(other) is Value or isinstance(other, LateValue)):
-            return NotImplemented
-        return self.text == other.text and self.location == other.location
-
-    __hash__ = Value.__hash__
-
-    def __repr__(self) -> str:
-        return repr(_ordinary(self.text, self.location, self.through, self.verbatim, self.raw))
-
-    def __reduce__(self) -> Any:  # noqa: ANN401 - what makes it, and of what
-        return _ordinary, (self.text, self.location, self.through, self.verbatim, self.raw)
-
-
-class MatchedValue(LateValue):
-    """What a text comes to that stands where the group of a match does."""
-
-    __slots__ = ("included_from", "template")
-
-    template: MatchedTemplate
-    included_from: tuple[Span, ...]
-
-    @property
-    def location(self) -> Location:
-        """The place."""
-        return location_of(self.template.matched, self.template.group, self.included_from)
-
-    @property
-    def verbatim(self) -> bool:
-        """Whether it stands there as it is."""
-        return self.template.constant is not None
-
-    @property
-    def raw(self) -> str | None:
-        """What stands there, where that is something else."""
-        return None if self.verbatim else self.template.raw
-
-
-def _ordinary(
-    text: str, location: Location, through: tuple[Read, ...], verbatim: bool, raw: str | None
-) -> Value:
-    return Value(text, location, through=through, verbatim=verbatim, raw=raw)
-
-
-_new = object.__new__
-
-
-def matched_value(
-    text: str, template: MatchedTemplate, included_from: tuple[Span, ...], through: tuple[Read, ...] = ()
-) -> Value:
-    """Return what a text comes to, in a file that these includes have led to."""
-    made: Any = _new(MatchedValue)
-    made.text = text
-    made.template = template
-    made.included_from = included_from
-    made.through = through
-    value: Value = made
-    return value
-
-
 class Packaged(NamedTuple):
     """What names a program of a package where it was first found, and the words that start it; nothing was read."""
 
@@ -179,21 +110,21 @@ class Variable:
     leaked_from: Span | None = None
     setter: Setter = "let"
     settled: Location | None = None
-    noted: list[Read] = field(default_factory=list, compare=False, repr=False)
+    noted: list[tuple[Read]] = field(default_factory=list, compare=False, repr=False)
 
 
 new_variable = maker(Variable)
 
 
-def noted_of(name: str, variable: Variable) -> Read | None:
-    """Return what is noted of a variable where it is read, None for one with a faulty value."""
+def noted_of(name: str, variable: Variable) -> tuple[Read] | None:
+    """Return what is noted of a variable where it is read, which is one thing; None for one with a faulty value."""
     if not variable.noted:
         value = variable.value
         if isinstance(value, Poison):
             return None
         setter, at, written = variable.setter, variable.location, value.location if value.verbatim else None
         read = new_read("variable", name, value.text, setter, at, value.through, written, value)
-        variable.noted.append(read)
+        variable.noted.append((read,))
     return variable.noted[0]
 
 
@@ -203,8 +134,8 @@ class Variables(Protocol):
     def get(self, name: str, reader: Location) -> Evaluated | None:
         """Return the value, None where it is unset; `reader` is the place that asks."""
 
-    def known(self, names: Sequence[str]) -> tuple[list[str], tuple[Read, ...]] | None:
-        """Return the values of variables and what is noted of each; None where there is something to tell of one."""
+    def known(self, names: Sequence[str]) -> tuple[Read, ...] | None:
+        """Return what is noted of each variable, its value with it; None where there is something to tell of one."""
 
     def names(self) -> tuple[str, ...]:
         """Return the names that are set, for suggestions."""

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Final
 
 from orchestra.description.text import Call, MatchedTemplate, Opaque, Words
 from orchestra.location import new_location
-from orchestra.resolve.context import POISON, Poison, matched_value, new_value
+from orchestra.resolve.context import POISON, Poison, new_value
+from orchestra.resolve.late_values import matched_value
 from orchestra.resolve.substitutions.table import SUBSTITUTIONS
 
 if TYPE_CHECKING:
@@ -69,9 +70,9 @@ def _at_once(template: Template, parts: Sequence[Part], context: Context) -> Val
     known = context.variables.known(names)
     if known is None:
         return None
-    values = iter(known[0])
-    text = "".join([next(values) if piece is None else piece for piece in pieces])
-    return new_value(text, at, through=known[1], raw=template.raw)
+    following = iter(known)
+    text = "".join([next(following).value if piece is None else piece for piece in pieces])
+    return new_value(text, at, through=known, raw=template.raw)
 
 
 def _concatenated(template: Template, context: Context) -> Evaluated:
@@ -112,20 +113,24 @@ def plainly(template: MatchedTemplate, context: Context) -> tuple[str, tuple[Rea
     if pieces is None:
         return None
     if pieces.variables is not None:
-        known = context.variables.known(pieces.variables)
-        return None if known is None else (pieces.filled(known[0]), known[1])
+        reads = context.variables.known(pieces.variables)
+        if reads is None:
+            return None
+        if len(pieces.pieces) == 1:
+            return reads[0].value, reads
+        return pieces.filled([read.value for read in reads]), reads
     if pieces.beside is None or file is None:
         return None
-    known = context.variables.known(pieces.beside)
-    return None if known is None else (_in_folder(pieces, file, known[0]), known[1])
+    reads = context.variables.known(pieces.beside)
+    return None if reads is None else (_in_folder(pieces, file, reads), reads)
 
 
-def _in_folder(pieces: Pieces, file: str, values: Sequence[str]) -> str:
+def _in_folder(pieces: Pieces, file: str, reads: Sequence[Read]) -> str:
     """Return a text of a launch file in which only variables and its folder are substituted."""
-    folder, following = _folder_of(file), iter(values)
+    folder, following = _folder_of(file), iter(reads)
     return "".join(
         [
-            piece if isinstance(piece, str) else folder if piece.variable is None else next(following)
+            piece if isinstance(piece, str) else folder if piece.variable is None else next(following).value
             for piece in pieces.pieces
         ]
     )

@@ -56,6 +56,8 @@ class InvalidName(ValueError):  # noqa: N818 - the name says what it is
 
 def node_name_fault(name: str) -> Fault | None:
     """Return why a node cannot be given this name, None where it can."""
+    if _PLAIN_WORD.fullmatch(name) and "__" not in name and len(name) <= _LONGEST_NODE_NAME:
+        return None
     return rmw_node_name_fault(name) or _double_underscore(name)
 
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from orchestra.errors import Code
-from orchestra.resolve.context import POISON, Evaluated, Poison, Read, Value, new_read, new_value
+from orchestra.resolve.context import POISON, Evaluated, Poison, Read, Value, new_read
+from orchestra.resolve.late_values import placed_value
 from orchestra.resolve.names import joined, mended, namespace_fault
 from orchestra.resolve.refusals import refuse_value
 from orchestra.resolve.scope import NAMESPACE
@@ -37,9 +38,7 @@ def below(base: Evaluated | None, namespace: Evaluated | None, problems: Problem
         meant = mended(written.text, lambda name: namespace_fault(joined(outer, name) or ""))
         return refuse_value(written, problems, Code.BAD_NAME, message, meant=meant)
     around = () if base is None else (pushed(base),)
-    return new_value(
-        text, written.location, through=around + (() if namespace is None else namespace.through)
-    )
+    return placed_value(text, written, around if namespace is None else around + namespace.through)
 
 
 def pushed(base: Value) -> Read:
@@ -49,8 +48,17 @@ def pushed(base: Value) -> Read:
 
 def namespace_at(written: Template | None, node: Entity, run: Resolution) -> Evaluated | None:
     """Return the namespace of a node: what is written, below what has been pushed."""
-    scope = run.scope
-    base = scope.namespace(run.place(node)) if NAMESPACE in scope.variables else None
-    if base is None and written is None:
+    variable = run.scope.variables.get(NAMESPACE)
+    if variable is None and written is None:
         return None
-    return below(base, run.evaluate(written), run.problems)
+    base = None if variable is None else variable.value
+    if variable is not None and variable.leaked_from is not None:
+        base = run.scope.namespace(run.place(node))  # warns
+    if written is not None:
+        return below(base, run.evaluate(written), run.problems)
+    if run.inherited is None or run.inherited[0] is not base:  # most nodes of a group stand in the same
+        found = below(base, None, run.problems)
+        if not isinstance(base, Value) or not isinstance(found, Value):
+            return found
+        run.inherited = base, found
+    return run.inherited[1]

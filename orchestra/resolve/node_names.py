@@ -24,7 +24,7 @@ def named(template: Template | None, run: Resolution) -> Evaluated | None:
     value = run.evaluate(template)
     if value is None or isinstance(value, Poison):
         return value
-    name = replace(value, text=value.text[1:]) if value.text.startswith("/") else value
+    name = replace(value, text=value.text[1:]) if value.text[:1] == "/" else value
     fault = node_name_fault(name.text)
     if fault is None:
         if name is not value:

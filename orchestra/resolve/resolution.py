@@ -16,11 +16,12 @@ from orchestra.fields import field, replace
 from orchestra.location import Location, Span, location_of
 from orchestra.nearest import nearest
 from orchestra.resolve.booleans import boolean
-from orchestra.resolve.context import POISON, Context, Evaluated, Packaged, Poison, Value, matched_value
+from orchestra.resolve.context import POISON, Context, Evaluated, Packaged, Poison, Value
 from orchestra.resolve.evaluate import evaluate
 from orchestra.resolve.found import Found
 from orchestra.resolve.impossible.held import Held
 from orchestra.resolve.inputs import Inputs
+from orchestra.resolve.late_values import matched_value
 from orchestra.resolve.ledger import Ledger
 from orchestra.resolve.model import FileParameters, ResolvedDependency
 from orchestra.resolve.occasions import Action as CollectedAction
@@ -68,7 +69,8 @@ class Resolution:
     """Where the visit is, and what it may use. `around` are the objects of Python launch files that it is inside of.
 
     `startable` has the programs that have been found to be there and sound, each with the search path, `packaged` the
-    words of those of packages. `components` are what distributions declare, by where code is imported from.
+    words of those of packages. `inherited` is a pushed namespace with what a node has that says none. `components` are
+    what distributions declare, by where code is imported from.
     """
 
     inputs: Inputs
@@ -89,6 +91,7 @@ class Resolution:
     startable: set[tuple[str, str]] = field(default_factory=set)
     packaged: dict[tuple[str | None, str | None, str], Packaged] = field(default_factory=dict)
     components: dict[tuple[str, ...], tuple[Any, ...]] = field(default_factory=dict)
+    inherited: tuple[Value, Value] | None = None
     descriptions: dict[str, Description | None] = field(default_factory=dict)
     parameter_files: dict[tuple[str, bool], FileParameters | None] = field(default_factory=dict)
     make_engine: Callable[[Resolution], Any] | None = None
@@ -138,9 +141,8 @@ class Resolution:
         self.steps += 1
         if self.steps == _MOST_STEPS:
             message = f"the description comes to more than {_MOST_STEPS} actions"
-            self.problems.error(
-                Code.INCLUDE_CYCLE, message, self.at(place.span if isinstance(place, Action) else place)
-            )
+            span = place.span if isinstance(place, Action) else place
+            self.problems.error(Code.INCLUDE_CYCLE, message, self.at(span))
         return self.steps < _MOST_STEPS
 
     @property
@@ -158,8 +160,8 @@ class Resolution:
             traceback = traceback.tb_next
         message = "actions stand inside each other without end, or too deep"
         self.problems.error(Code.INCLUDE_CYCLE, message, spans[-1] if spans else None)
-        self.depth, self.conditions, self.repetitions, self.around, self.occasion = 0, 0, 0, (), None
-        self.held = ()
+        self.depth = self.conditions = self.repetitions = 0
+        self.around, self.occasion, self.held = (), None, ()
 
     def at(self, span: Span) -> Location:
         """Return the location of a span of the file that is being visited."""
@@ -175,10 +177,9 @@ class Resolution:
         """Evaluate a text in the current scope; None stays None."""
         if template is None:
             return None
-        context = self.context
         if type(template) is MatchedTemplate and template.constant is not None:  # as `evaluate` does it
-            return matched_value(template.constant, template, context.included_from)
-        return evaluate(template, context)
+            return matched_value(template.constant, template, self.context.included_from)
+        return evaluate(template, self.context)
 
     def text(self, template: Template | None) -> str | Poison | None:
         """Return what a text comes to."""

@@ -21,7 +21,6 @@ from orchestra.resolve.outputs import output
 from orchestra.resolve.paths import check_folder
 from orchestra.resolve.policies import restart, stop
 from orchestra.resolve.reactions import ResolvedStart
-from orchestra.resolve.readiness import life, readiness
 from orchestra.resolve.sound import Sound
 from orchestra.resolve.worded import texts
 from orchestra.witness.variables import copied
@@ -100,10 +99,11 @@ def _say(action: Running, process: Any, run: Resolution) -> bool:  # noqa: ANN40
         from orchestra.resolve.exit_codes import exit_codes  # noqa: PLC0415 - few processes have some
 
         process.success_exit_codes = sound(exit_codes(action, run))
-    if action.ready is not None:
-        process.ready = sound(readiness(action.ready, run))
-    if action.alive is not None:
-        process.alive = sound(life(action.alive, run))
+    if action.ready is not None or action.alive is not None:
+        from orchestra.resolve.readiness import life, readiness  # noqa: PLC0415 - few processes say it
+
+        process.ready = None if action.ready is None else sound(readiness(action.ready, run))
+        process.alive = None if action.alive is None else sound(life(action.alive, run))
     process.stop = sound(stop(action, run))
     process.depends_on += sound(dependencies(action.depends_on, run)) or ()
     if action.limits is not None:

@@ -81,12 +81,12 @@ class Scope:
         if variable.leaked_from is not None:
             self._warn_of_leak(name, variable, reader)
         if self._reads is not None and (read := noted_of(name, variable)) is not None:
-            self._reads.append(read)
+            self._reads += read
         return variable.value
 
-    def known(self, names: Sequence[str]) -> tuple[list[str], tuple[Read, ...]] | None:
-        """Return the values of variables and what is noted of each; None where there is something to tell of one."""
-        texts, noted = [], []
+    def known(self, names: Sequence[str]) -> tuple[Read, ...] | None:
+        """Return what is noted of each variable, its value with it; None where there is something to tell of one."""
+        found: tuple[Read, ...] = ()
         for name in names:
             variable = self.variables.get(name)
             if variable is None or variable.leaked_from is not None:
@@ -94,12 +94,11 @@ class Scope:
             read = variable.noted[0] if variable.noted else noted_of(name, variable)
             if read is None:
                 return None
-            texts.append(read.value)
-            noted.append(read)
+            found = found + read if found else read
         self.ledger.read.update(names)
         if self._reads is not None:
-            self._reads += noted
-        return texts, tuple(noted)
+            self._reads += found
+        return found
 
     def note(self, kind: ReadKind, name: str, value: str) -> None:
         """Note that something other than a variable is read."""

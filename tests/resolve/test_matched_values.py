@@ -11,7 +11,8 @@ from orchestra.description.text import MatchedTemplate, PlainCall, matched_templ
 from orchestra.fields import replace
 from orchestra.load.offsets import source
 from orchestra.location import Location, Matched, Span
-from orchestra.resolve.context import Read, Value, matched_value
+from orchestra.resolve.context import Read, Value
+from orchestra.resolve.late_values import matched_value
 
 _TEXT = "launch: \n- arm $(dirname)"
 _CHAIN = (Span("top.yaml", 3, 5, 3, 9),)
