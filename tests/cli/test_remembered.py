@@ -367,15 +367,22 @@ def test_an_entry_that_is_damaged_or_of_others_is_none(plans: Rememberer) -> Non
 def test_an_entry_of_another_version_is_none(plans: Rememberer) -> None:
     plans.make()
     entry = _entry(plans)
-    content = json.loads(entry.read_bytes().partition(b"\n")[2])
+    told, _, document = entry.read_bytes().partition(b"\n")[2].partition(b"\n")
+    content = json.loads(told)
+    _put(entry, content, document)
+    assert plans.recall() is not None
     ours = str(Path(orchestra.__file__).parent)
     files = content["result"]["code"]
     for part in ("resolve/resolve.py", "load/yaml_file.py", "plan/build.py", "description/launch.py"):
         assert f"{ours}/{part}" in files
     files[f"{ours}/plan/build.py"][0] += 1
-    body = json.dumps(content).encode()
-    entry.write_bytes(digest_of(body).encode() + b"\n" + body)
+    _put(entry, content, document)
     assert plans.recall() is None
+
+
+def _put(entry: Path, content: object, document: bytes) -> None:
+    body = json.dumps(content).encode() + b"\n" + document
+    entry.write_bytes(digest_of(body).encode() + b"\n" + body)
 
 
 @pytest.mark.parametrize("place", ["/proc/nowhere", "/dev/full/cache", "work/main.launch.yaml"])
