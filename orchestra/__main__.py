@@ -144,10 +144,6 @@ def _prepare(words: list[str], stream: BinaryIO) -> int | Answer | Settled:
 
 def _resolve(words: list[str], stream: BinaryIO) -> int | Answer | Settled:
     """Make the plan and write it to the stream. Only here heavy imports belong."""
-    from orchestra.patterns import late
-
-    with late():  # two thirds of the time that it takes to import, and its parser in C needs none of them
-        import yaml  # noqa: F401
     from orchestra.cli.main import prepare
 
     return prepare(words, stream)

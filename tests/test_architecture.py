@@ -35,6 +35,7 @@ _ROWS = (
         "stack",
     ),
     ("settings", "witness"),
+    ("pyyaml",),
     ("description",),
     ("compat",),
     ("load",),

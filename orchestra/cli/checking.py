@@ -18,7 +18,7 @@ from orchestra.cli.targets import Target
 from orchestra.dataclass import dataclass
 from orchestra.errors import Code, Problem, Problems
 from orchestra.location import displayed, point
-from orchestra.patterns import late
+from orchestra.pyyaml import in_place
 from orchestra.settings.settle import comments_in, unused
 from orchestra.witness.observing import observer
 
@@ -124,8 +124,7 @@ def _looks(targets: Sequence[Target], inputs: Inputs, manner: Manner, kept: Kept
 
 def get_ready() -> None:
     """Import what it takes to look at files. It is heavy, and not needed where everything is known."""
-    with late():  # two thirds of the time that it takes to import
-        import yaml  # noqa: F401, PLC0415
+    in_place()
     import orchestra.cli.look.looker  # noqa: F401, PLC0415
 
 

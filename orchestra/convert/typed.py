@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, TypeAlias
 
-import yaml
-
 from orchestra.convert.texts import normal
 from orchestra.description.text import Constant, Template
+from orchestra.pyyaml import yaml
 from orchestra.resolve.rcl.overrides import override_value
 from orchestra.resolve.scalars import checked, coerced, unified, upstream_value
 

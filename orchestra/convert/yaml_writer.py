@@ -5,10 +5,9 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
-import yaml
-
 from orchestra.convert.plain import is_plain
 from orchestra.convert.tree import Entry, Mapping, Notes, Scalar, Sequence, Style
+from orchestra.pyyaml import yaml
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator

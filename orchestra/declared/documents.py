@@ -6,11 +6,10 @@ import json
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
-import yaml
-
 from orchestra.dataclass import dataclass
 from orchestra.errors import Code
 from orchestra.location import Location, Span, displayed, point
+from orchestra.pyyaml import yaml
 
 if TYPE_CHECKING:
     from orchestra.errors import Problems
@@ -58,7 +57,7 @@ def read_document(path: str, named_at: Location | None, problems: Problems) -> D
         problems.error(Code.BROKEN_DECLARATION, f"{file} is too long for a declaration", named_at)
         return None
     try:
-        data = json.loads(text) if path.endswith(".json") else yaml.load(text, Loader=_LOADER)  # noqa: S506 - a safe one
+        data = json.loads(text) if path.endswith(".json") else yaml.load(text, Loader=_LOADER)
     except json.JSONDecodeError as error:
         _refuse(f"not JSON: {error.msg}", error.lineno, error.colno, file, chain, problems)
     except yaml.YAMLError as error:

@@ -6,8 +6,6 @@ from collections.abc import Callable
 from pathlib import PurePath
 from typing import Any, Final
 
-import yaml
-
 from orchestra.dataclass import dataclass
 from orchestra.errors import Problems
 from orchestra.formatting.xml_layout import xml_formatted
@@ -17,6 +15,7 @@ from orchestra.formatting.yaml_same import yaml_sense
 from orchestra.formatting.yaml_tree import LOADER
 from orchestra.load import xml_file, yaml_file
 from orchestra.load.reader import Reader
+from orchestra.pyyaml import yaml
 from orchestra.resolve.rcl.files import read_parameter_file
 
 

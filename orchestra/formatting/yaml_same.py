@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-import yaml
-
 from orchestra.description.source import Keyed, Listed, Written
 from orchestra.errors import Problems
 from orchestra.formatting.yaml_comments import comments_between
 from orchestra.formatting.yaml_tree import LOADER
 from orchestra.load import yaml_file
 from orchestra.load.reader import Reader
+from orchestra.pyyaml import yaml
 from orchestra.resolve.rcl.files import read_parameter_file
 
 if TYPE_CHECKING:

@@ -12,14 +12,13 @@ import re
 from collections.abc import Iterator
 from typing import Any, TypeAlias
 
-import yaml
-
 from orchestra.dataclass import dataclass
 from orchestra.fields import field
 from orchestra.formatting.refusal import NotFormatted
 from orchestra.formatting.yaml_comments import comments_between
 from orchestra.formatting.yaml_nodes import Document, File, Mapping, Node, Scalar, Sequence
 from orchestra.formatting.yaml_scalars import block_end
+from orchestra.pyyaml import yaml
 
 LOADER: type[Any] = getattr(yaml, "CBaseLoader", yaml.BaseLoader)
 

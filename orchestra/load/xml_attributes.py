@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Final
-
-import yaml
+from typing import TYPE_CHECKING, Final
 
 from orchestra.description.source import Listed, Written
 from orchestra.errors import Code
 from orchestra.patterns import pattern
+from orchestra.pyyaml import yaml
 
 if TYPE_CHECKING:
     from orchestra.load.elements import Attribute
@@ -18,7 +17,6 @@ if TYPE_CHECKING:
 _WORDS: Final = "choices"
 _WORD: Final = pattern(r"[\w./-]+")
 _JOINT: Final = pattern(r"\s*[,;|]\s*|\s+")
-_PARSER: type[Any] = getattr(yaml, "CBaseLoader", yaml.BaseLoader)
 
 
 def separated(attribute: Attribute, separator: Attribute, whole: Source, reader: Reader) -> Listed:
@@ -67,7 +65,8 @@ def _refuse_words(attribute: Attribute, words: list[str], whole: Source, reader:
 
 def _composed(text: str) -> yaml.Node | None:
     try:
-        return yaml.compose(text, Loader=_PARSER) if text.lstrip().startswith("[") else None
+        parser = getattr(yaml, "CBaseLoader", yaml.BaseLoader)
+        return yaml.compose(text, Loader=parser) if text.lstrip().startswith("[") else None
     except yaml.YAMLError:
         return None
 

@@ -5,12 +5,11 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING, Any, Final
 
-import yaml
-
 from orchestra.dataclass import dataclass
 from orchestra.load.conflicts import TOLD, conflict_in
 from orchestra.load.faults import Fault
 from orchestra.load.offsets import Source
+from orchestra.pyyaml import yaml
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -9,8 +9,6 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING, Any, Final
 
-import yaml
-
 from orchestra.description.source import shortened
 from orchestra.load.faults import Fault
 from orchestra.load.yaml_colons import comment_meant, in_quotes, of_brackets, of_second_colon
@@ -19,6 +17,7 @@ from orchestra.load.yaml_failure import Failure
 from orchestra.load.yaml_indentation import of_lines
 from orchestra.nearest import nearest
 from orchestra.patterns import pattern
+from orchestra.pyyaml import yaml
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -9,8 +9,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Final
 
-import yaml
-
 from orchestra.dataclass import dataclass
 from orchestra.description.actions import model_of
 from orchestra.description.source import Keyed, Listed, Written, kind_of
@@ -22,6 +20,7 @@ from orchestra.load.offsets import Source, source, spans_of
 from orchestra.load.reader import Reader
 from orchestra.load.yaml_plain import DASH, DEEPEST, NULL, PARSER
 from orchestra.patterns import pattern
+from orchestra.pyyaml import yaml
 
 if TYPE_CHECKING:
     import re

@@ -5,10 +5,9 @@ from __future__ import annotations
 from itertools import takewhile
 from typing import TYPE_CHECKING
 
-import yaml
-
 from orchestra.errors import Code
 from orchestra.load.unquoted import in_quotes
+from orchestra.pyyaml import yaml
 
 if TYPE_CHECKING:
     from orchestra.load.offsets import Source

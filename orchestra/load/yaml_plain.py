@@ -8,22 +8,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Final
 
-import yaml
-from yaml.events import (
-    DocumentEndEvent,
-    DocumentStartEvent,
-    MappingEndEvent,
-    MappingStartEvent,
-    ScalarEvent,
-    SequenceEndEvent,
-    SequenceStartEvent,
-    StreamEndEvent,
-)
-
 from orchestra.description.source import Keyed, Listed, Verbatim, Written
 from orchestra.load.offsets import spans_of
 from orchestra.location import inside, stretch
 from orchestra.patterns import pattern
+from orchestra.pyyaml import yaml
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -35,6 +24,15 @@ NULL: Final = frozenset({"", "~", "null", "Null", "NULL"})
 # What looks like a key and is an item of a list without its blank.
 DASH: Final = pattern(r"-[A-Za-z]")
 DEEPEST: Final = 100
+DocumentEndEvent: Final = yaml.DocumentEndEvent
+DocumentStartEvent: Final = yaml.DocumentStartEvent
+MappingEndEvent: Final = yaml.MappingEndEvent
+MappingStartEvent: Final = yaml.MappingStartEvent
+ScalarEvent: Final = yaml.ScalarEvent
+SequenceEndEvent: Final = yaml.SequenceEndEvent
+SequenceStartEvent: Final = yaml.SequenceStartEvent
+StreamEndEvent: Final = yaml.StreamEndEvent
+
 PARSER: Final[type[Any]] = getattr(yaml, "CBaseLoader", yaml.BaseLoader)
 
 # What the keys of merges and of mistaken items begin with; what a comma has cut off a substitution ends with a bracket.

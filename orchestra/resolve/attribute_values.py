@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Final
 
 from orchestra.errors import Code
 from orchestra.patterns import pattern
-from orchestra.resolve.rcl.overrides import override_value
 from orchestra.resolve.scalars import described, upstream_value
 from orchestra.resolve.yaml_scalars import NotYaml
 
@@ -45,6 +44,8 @@ def retyped(given: ParameterValue, location: Location, problems: Problems) -> Pa
     """
     if not isinstance(given, str):
         return given
+    from orchestra.resolve.rcl.overrides import override_value  # noqa: PLC0415 - few plans set some for all nodes
+
     try:
         value = override_value(given)
     except ValueError:

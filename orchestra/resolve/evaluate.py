@@ -10,7 +10,7 @@ from orchestra.description.text import Call, MatchedTemplate, Opaque, Words
 from orchestra.location import new_location
 from orchestra.resolve.context import POISON, Poison, new_value
 from orchestra.resolve.late_values import matched_value
-from orchestra.resolve.substitutions.table import SUBSTITUTIONS
+from orchestra.resolve.substitutions.table import performing
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -140,4 +140,4 @@ def perform(part: Call | Opaque, context: Context) -> Evaluated:
     """Return the value of one substitution, which points at where the substitution is written."""
     if isinstance(part, Opaque):
         return context.perform_opaque(part)
-    return SUBSTITUTIONS[part.name](part, context, evaluate)
+    return performing(part.name)(part, context, evaluate)

@@ -23,7 +23,6 @@ from orchestra.resolve.model import (
     new_parameter,
     place_of,
 )
-from orchestra.resolve.parameter_files import file_parameters
 from orchestra.resolve.paths import beside
 from orchestra.resolve.plain_parameters import plainly, read_at_once
 from orchestra.resolve.rcl.odd_names import may_be_odd, odd_name
@@ -80,6 +79,8 @@ def parameters(
             whole = False  # it may be no parameter at all: a remap stands where one belongs
         else:
             substitute = param.allow_substs is not None and run.flag(param.allow_substs, default=False)
+            from orchestra.resolve.parameter_files import file_parameters  # noqa: PLC0415 - many plans have none
+
             file = file_parameters(param.from_, run, substitute=substitute is True, plain=component)
             if file is not None and isinstance(substitute, bool):
                 found.append(file)

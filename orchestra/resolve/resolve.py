@@ -10,10 +10,9 @@ from orchestra.resolve.arguments import Given, settle
 from orchestra.resolve.containers import settle_containers
 from orchestra.resolve.context import CommandRunner, Context, Packages, Value
 from orchestra.resolve.found import Found
-from orchestra.resolve.given import given_sections
 from orchestra.resolve.interpret import visit, visit_file
 from orchestra.resolve.ledger import Ledger
-from orchestra.resolve.model import Resolved
+from orchestra.resolve.model import GivenSections, Resolved
 from orchestra.resolve.resolution import Frame, LoadFile, Resolution
 from orchestra.resolve.scope import Scope
 from orchestra.resolve.settling import settled
@@ -91,11 +90,19 @@ def outcome(file: str, run: Resolution) -> Resolved:
         tuple(run.found.processes),
         settled(run),
         tuple(run.found.skipped),
-        given_sections(run),
+        _given(run),
         frozenset(run.found.lost),
         run.scope.ledger.incomplete,
         tuple(run.found.components),
     )
+
+
+def _given(run: Resolution) -> tuple[GivenSections, ...]:
+    if not run.inputs.parameter_files and not run.inputs.parameters:
+        return ()
+    from orchestra.resolve.given import given_sections  # noqa: PLC0415 - few command lines say something of parameters
+
+    return given_sections(run)
 
 
 def begin(

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Final
 
-import yaml
-
 from orchestra.description.text import Template, Words
 from orchestra.location import Span
+from orchestra.pyyaml import yaml
 from orchestra.resolve.rcl.mixed import in_place, odd_item, wanted_type
 from orchestra.resolve.rcl.scalars import typed
 from orchestra.resolve.refusals import forget_surprise

@@ -2,21 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import TYPE_CHECKING, Any, Final, TypeAlias
-
-import yaml
-from yaml.constructor import SafeConstructor
-from yaml.resolver import Resolver
+from functools import cache
+from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.description.source import shortened
 from orchestra.patterns import pattern
+from orchestra.pyyaml import yaml
 
 if TYPE_CHECKING:
     import re
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
+    from typing import TypeAlias
 
-Construct: TypeAlias = Callable[[yaml.ScalarEvent], Any]
+    from yaml.constructor import SafeConstructor
+
+    Construct: TypeAlias = Callable[[yaml.ScalarEvent], Any]
 
 QUOTE: Final = "quote it to mean a text"
 
@@ -24,8 +24,6 @@ QUOTE: Final = "quote it to mean a text"
 _LONGEST_NUMBER: Final = 1_000
 # Longer texts are left to libyaml, which is a hundred times as fast; PyYAML's own parser is the one upstream has.
 _LONG: Final = 10_000
-# What PyYAML's constructors raise for a value that does not fit its tag, as in `!!bool perhaps`.
-_UNMEANT: Final = (yaml.YAMLError, ArithmeticError, LookupError, AttributeError)
 _NUMBERS: Final = ("tag:yaml.org,2002:int", "tag:yaml.org,2002:float")
 
 
@@ -85,12 +83,13 @@ def by_pyyaml(event: yaml.ScalarEvent) -> Any:  # noqa: ANN401 - what PyYAML mak
     """Return what `yaml.safe_load` makes of a scalar; plain text as `Plain`. Raises `ValueError`."""
     tag = event.tag
     if tag is None or tag == "!":
-        tag = _resolve(yaml.ScalarNode, event.value, event.implicit)
+        tag = _resolver()(yaml.ScalarNode, event.value, event.implicit)
     if tag in _NUMBERS and len(event.value) > _LONGEST_NUMBER:
         raise ValueError(f"'{shortened(event.value)}' is too long for a number: {QUOTE}")
     try:
-        value = _CONSTRUCTOR.construct_object(yaml.ScalarNode(tag, event.value))
-    except _UNMEANT:
+        value = _constructor().construct_object(yaml.ScalarNode(tag, event.value))
+    # What PyYAML's constructors raise for a value that does not fit its tag, as in `!!bool perhaps`.
+    except (yaml.YAMLError, ArithmeticError, LookupError, AttributeError):
         raise ValueError(f"'{shortened(event.value)}' means nothing as a parameter: {QUOTE}") from None
     return Plain(value) if isinstance(value, str) and event.implicit[0] else value
 
@@ -102,8 +101,16 @@ def by_core(event: yaml.ScalarEvent) -> Any:  # noqa: ANN401 - what YAML 1.2 mak
     return next((read(event.value) for form, read in _CORE if form.fullmatch(event.value)), event.value)
 
 
-_resolve: Final[Callable[..., str]] = Resolver().resolve
-_CONSTRUCTOR: Final = SafeConstructor()
+@cache
+def _resolver() -> Callable[..., str]:
+    return yaml.resolver.Resolver().resolve
+
+
+@cache
+def _constructor() -> SafeConstructor:
+    return yaml.constructor.SafeConstructor()
+
+
 # YAML 1.2.2, 10.3.2 "Tag Resolution" of the core schema.
 _CORE: Final[tuple[tuple[re.Pattern[str], Callable[[str], Any]], ...]] = (
     (pattern(r"null|Null|NULL|~|"), lambda _: None),

@@ -24,8 +24,8 @@ _COUNTING = Path(__file__).with_name("counting.py")
 # Of ours and of the interpreter's library, in the supervisor when it starts its first program.
 _OURS, _ALL = 143, 242
 # The same in the process that makes the first plan of a file with one executable, or with one node in Python.
-_OURS_OF_A_PLAN, _ALL_OF_A_PLAN = 300, 421
-_OURS_OF_PYTHON, _ALL_OF_PYTHON = 385, 515
+_OURS_OF_A_PLAN, _ALL_OF_A_PLAN = 266, 388
+_OURS_OF_PYTHON, _ALL_OF_PYTHON = 345, 449
 _NODE = """\
 from launch import LaunchDescription
 from launch.actions import DeclareLaunchArgument

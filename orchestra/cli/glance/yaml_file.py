@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-import yaml
-
 from orchestra.cli.glance.model import Glance, SeenArgument, SeenInclude
 from orchestra.cli.glance.texts import constant_text
+from orchestra.pyyaml import yaml
 
 if TYPE_CHECKING:
     from orchestra.cli.glance.model import Places
@@ -19,7 +18,7 @@ _Loader: Any = getattr(yaml, "CBaseLoader", yaml.BaseLoader)
 def glance(text: str, places: Places) -> Glance:
     """Return what the text shows. Raises `ValueError`."""
     try:
-        tree = yaml.load(text, _Loader)  # noqa: S506 - a base loader, which makes no objects
+        tree = yaml.load(text, _Loader)
     except yaml.YAMLError as error:
         raise ValueError(str(error)) from error
     found = _Found(places)

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-import yaml
-
 from orchestra.convert.comments.found import Comment, Scan, text_of
 from orchestra.formatting.yaml_comments import comments_between
 from orchestra.load.offsets import source
+from orchestra.pyyaml import yaml
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

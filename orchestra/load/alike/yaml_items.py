@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING, Any, Final
 from orchestra.load.alike.learned import Forms, Manner, escaped
 from orchestra.load.alike.one_by_one import Item
 from orchestra.load.alike.yaml_entities import read
-from orchestra.load.yaml_plain import read_part
 
 if TYPE_CHECKING:
     from orchestra.description.entity import Action
@@ -65,6 +64,8 @@ def items(whole: Source) -> list[Item] | None:
 
 def tree(whole: Source, item: Item, reader: Reader) -> Any | None:  # noqa: ANN401 - a tree
     """Return the tree of an item; None where the text does not end with it."""
+    from orchestra.load.yaml_plain import read_part  # noqa: PLC0415 - what is read straight needs no parser
+
     del reader
     listed = read_part(whole, item.begin, item.end, _DEPTH)
     return listed[0] if isinstance(listed, list) and len(listed) == 1 else None

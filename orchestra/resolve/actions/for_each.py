@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-import yaml
-
+from orchestra.pyyaml import yaml
 from orchestra.resolve.amounts import UnfitError, made
 from orchestra.resolve.context import Value
 from orchestra.resolve.turns import carry_out

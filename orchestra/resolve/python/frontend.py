@@ -9,7 +9,6 @@ from orchestra.compat.exposures import Exposures
 from orchestra.compat.launch.frontend.invalid_frontend_launch_file_error import InvalidFrontendLaunchFileError
 from orchestra.description.source import Keyed
 from orchestra.errors import Problems
-from orchestra.load import yaml_file
 from orchestra.load.grammar import parse_template
 from orchestra.load.offsets import source
 from orchestra.load.placed import placed
@@ -52,7 +51,7 @@ class LoadingFrontEnd:
     def tree(self, text: str, name: str, language: str) -> Any:
         """Return the tree of a file. Raises `InvalidFrontendLaunchFileError`; its `problems` say why."""
         problems = Problems()
-        read = _xml if language == "xml" else yaml_file.read
+        read = _xml if language == "xml" else _yaml
         tree = read(text, displayed(name) if name else "<string>", Reader(problems))
         if problems.errors:
             raise FaultyFileError(language, problems.errors)
@@ -91,3 +90,9 @@ def _xml(text: str, file: str, reader: Reader) -> PlacedElement | None:
         fault = error.fault
         reader.error(fault.code, fault.message, fault.span, suggestion=fault.suggestion, notes=fault.notes)
         return None
+
+
+def _yaml(text: str, file: str, reader: Reader) -> Any:
+    from orchestra.load import yaml_file  # noqa: PLC0415 - it takes PyYAML
+
+    return yaml_file.read(text, file, reader)

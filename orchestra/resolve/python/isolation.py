@@ -54,11 +54,13 @@ class Isolation:
         if code is not None and code.may("harmless"):
             observer().harmless = code.code
             return
+        from orchestra.pyyaml import in_place  # noqa: PLC0415
         from orchestra.resolve.python.interpreter import Interpreter  # noqa: PLC0415
         from orchestra.resolve.python.libraries import Libraries  # noqa: PLC0415
         from orchestra.resolve.python.remaining import nothing_left, orphans_kept  # noqa: PLC0415
         from orchestra.resolve.python.temporary import temporary_files  # noqa: PLC0415
 
+        in_place()
         enter = self._restoring.enter_context
         with observer().aside():
             if self._before is None:

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-import yaml
-
 from orchestra.errors import Code, Problems
 from orchestra.fields import replace
 from orchestra.load.carrying_on import reading_behind
@@ -13,7 +11,8 @@ from orchestra.load.faults import RefusedError
 from orchestra.load.yaml_faults import explained, failed_at
 from orchestra.load.yaml_mends import mends
 from orchestra.location import Location, meet
-from orchestra.resolve.rcl.values import LOADER
+from orchestra.pyyaml import yaml
+from orchestra.resolve.rcl.values import loader
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
@@ -44,7 +43,7 @@ def read_as_meant(
 
     def attempt(tried: Source) -> tuple[_Read, Problems]:
         try:
-            events = list(yaml.parse(tried.text, Loader=LOADER))
+            events = list(yaml.parse(tried.text, Loader=loader()))
         except yaml.YAMLError as error:
             raise RefusedError(explained(error, tried), failed_at(error, tried)) from None
         found = Problems()

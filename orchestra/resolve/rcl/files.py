@@ -10,12 +10,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
-import yaml
-
 from orchestra.errors import Code, Problems
 from orchestra.load.offsets import source
 from orchestra.location import Location, Span
 from orchestra.patterns import pattern
+from orchestra.pyyaml import yaml
 from orchestra.resolve.rcl.duplicates import report_duplicates
 from orchestra.resolve.rcl.hollow import NO_VALUE, commented_out
 from orchestra.resolve.rcl.nesting import NESTED, as_text
@@ -23,7 +22,7 @@ from orchestra.resolve.rcl.opened import Unreadable
 from orchestra.resolve.rcl.reader import ALIAS, Reader
 from orchestra.resolve.rcl.strays import SECTION_KEY
 from orchestra.resolve.rcl.surprises import BREAK, report_surprises
-from orchestra.resolve.rcl.values import LOADER
+from orchestra.resolve.rcl.values import loader
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Sequence
@@ -83,7 +82,7 @@ def _read(
     event: yaml.Event | None = None
     further: list[Section] = []
     try:
-        for event in changed(yaml.parse(text, Loader=LOADER)):
+        for event in changed(yaml.parse(text, Loader=loader())):
             sound = len(found)
             reader.take(event)
     except yaml.YAMLError as error:
@@ -101,7 +100,7 @@ def _read(
         reader.lost = True  # it has reported why it cannot go on
 
         def events() -> Iterator[yaml.Event]:
-            return changed(yaml.parse(text, Loader=LOADER))
+            return changed(yaml.parse(text, Loader=loader()))
 
         # Here, because rcl reads most files.
         from orchestra.resolve.rcl.remaining import remaining_sections  # noqa: PLC0415

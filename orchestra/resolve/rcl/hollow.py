@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Final
 
-import yaml
-
 from orchestra.dataclass import dataclass
 from orchestra.errors import Code, Problems
 from orchestra.fields import field, replace
 from orchestra.location import Location
 from orchestra.patterns import pattern
+from orchestra.pyyaml import yaml
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence

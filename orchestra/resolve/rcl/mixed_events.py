@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-import yaml
-
 from orchestra.errors import Code
+from orchestra.pyyaml import yaml
 from orchestra.resolve.rcl.mixed import in_place, odd_item, wanted_type
 from orchestra.resolve.rcl.nesting import OF_MAPPINGS
 from orchestra.resolve.rcl.table import kind_of

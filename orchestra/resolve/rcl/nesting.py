@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Final
 
-import yaml
-
 from orchestra.dataclass import dataclass
 from orchestra.errors import Code, Problems
 from orchestra.fields import replace
+from orchestra.pyyaml import yaml
 from orchestra.resolve.rcl.opened import OpenList, Unreadable
 
 if TYPE_CHECKING:

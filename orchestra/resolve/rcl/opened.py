@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import yaml
-
 from orchestra.dataclass import dataclass
 from orchestra.fields import field
 from orchestra.location import Location
+from orchestra.pyyaml import yaml
 from orchestra.resolve.rcl.sections import Entry
 from orchestra.values import Scalar
 

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-import yaml
-
 from orchestra.dataclass import dataclass
 from orchestra.patterns import pattern
+from orchestra.pyyaml import yaml
 from orchestra.resolve.rcl.table import counting
-from orchestra.resolve.rcl.values import LOADER, scalar
+from orchestra.resolve.rcl.values import loader, scalar
 from orchestra.values import ParameterValue
 
 if TYPE_CHECKING:
@@ -59,7 +58,7 @@ def override_value(text: str) -> ParameterValue | None:
 def _values(text: str) -> Iterator[ParameterValue]:
     """Yield the values of a text as rcl meets them: nested lists are flat to it, and each begins a new one."""
     items: list[Scalar] | None = None
-    for event in yaml.parse(text, Loader=LOADER):
+    for event in yaml.parse(text, Loader=loader()):
         if isinstance(event, yaml.ScalarEvent):
             value = scalar(event)
             if items is None:

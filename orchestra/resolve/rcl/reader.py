@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-import yaml
-
 from orchestra.dataclass import dataclass
 from orchestra.errors import Code, Problems
 from orchestra.fields import field, replace
 from orchestra.location import Location, Span, new_location
+from orchestra.pyyaml import yaml
 from orchestra.resolve.rcl.hollow import Hollow
 from orchestra.resolve.rcl.joined import Joined, joined
 from orchestra.resolve.rcl.nesting import NESTED, Nesting

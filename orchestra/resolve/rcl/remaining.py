@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Final
 
-import yaml
-
+from orchestra.pyyaml import yaml
 from orchestra.resolve.rcl.opened import Unreadable
 
 if TYPE_CHECKING:

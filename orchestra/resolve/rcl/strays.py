@@ -9,14 +9,13 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING, Final
 
-import yaml
-
 from orchestra.dataclass import dataclass
 from orchestra.errors import Code, Problems
 from orchestra.fields import field
 from orchestra.location import Location, Span
 from orchestra.nearest import nearest
 from orchestra.patterns import pattern
+from orchestra.pyyaml import yaml
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

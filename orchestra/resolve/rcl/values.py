@@ -2,21 +2,22 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Final
-
-import yaml
+from typing import TYPE_CHECKING, Any
 
 from orchestra.location import new_span
+from orchestra.pyyaml import yaml
 from orchestra.resolve.rcl.scalars import typed
 
 if TYPE_CHECKING:
     from orchestra.location import Span
     from orchestra.values import Scalar
 
-# libyaml where PyYAML has it, because that is what rcl reads with; its pure twin elsewhere.
-LOADER: Final = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
-
 _STRING_TAG = "tag:yaml.org,2002:str"
+
+
+def loader() -> Any:  # noqa: ANN401 - a class of PyYAML
+    """Return libyaml where PyYAML has it, because that is what rcl reads with; its pure twin elsewhere."""
+    return getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 
 
 def scalar(event: yaml.ScalarEvent) -> Scalar:

@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING, Any
 
 from orchestra.description.source import Keyed, Written, kind_of
 from orchestra.errors import Code
-from orchestra.load import yaml_file
 from orchestra.load.reader import Reader
 from orchestra.nearest import nearest
 from orchestra.resolve.context import POISON, Poison
@@ -35,6 +34,8 @@ def perform(call: Call, context: Context, evaluate: Evaluate) -> Evaluated:
     if all(line.partition("#")[0].strip() in ("", "---") for line in text.splitlines()):
         tree: Any = Written("", at.span, lambda _, __: at.span, null=True)
     else:
+        from orchestra.load import yaml_file  # noqa: PLC0415 - it takes PyYAML
+
         tree = yaml_file.read(text, name, Reader(context.problems, (at.span, *at.included_from)))
     return POISON if tree is None else _under(key.text, tree, name, call, context, evaluate)
 
