@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from orchestra.dataclass import dataclass
 from orchestra.location import Location
-from orchestra.resolve.model import InlineParameter
+from orchestra.resolve.model import FileParameters, InlineParameter
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -75,6 +75,9 @@ class Places:
         self, name: str, node: ResolvedProcess | ResolvedComponent, planned: Process | Component
     ) -> Written:
         """Return where the value of a parameter that counts is written; of a group, one that is in it."""
+        alone = None if self._given else _alone(name, node)
+        if alone is not None:
+            return Written(alone.location, alone.items, alone.keys)
         candidates = planned.provenance.parameters
         full = (
             name
@@ -108,6 +111,14 @@ class Places:
                 written = Written(entry.location, entry.items, ((entry.name, entry.key),))
                 index.setdefault((entry.name, entry.location), written)
         yield index
+
+
+def _alone(name: str, node: ResolvedProcess | ResolvedComponent) -> InlineParameter | None:
+    """Return the one that sets a parameter in a list of nothing but values; None where it takes a closer look."""
+    if getattr(node, "parameter_arguments", ()) or FileParameters in map(type, node.parameters):
+        return None
+    found = [item for item in node.parameters if isinstance(item, InlineParameter) and item.name == name]
+    return found[0] if len(found) == 1 else None
 
 
 def _add(index: _Index, sections: Sequence[Section]) -> None:

@@ -43,8 +43,12 @@ def check_unlike(resolved: Resolved, plan: Plan, problems: Problems) -> None:
             programs.setdefault((node.package, called), []).append((node, planned))
     places, told = Places(resolved), {item.span for item in problems if item.code in _TOLD}
     for program, nodes in programs.items():
-        for name in sorted(odd[program]):
-            _tell(name, program[1], nodes, places, told, problems)
+        given: dict[str, list[_Given]] = {name: [] for name in sorted(odd[program])}
+        for node, planned in nodes:
+            for name in planned.parameters.keys() & given.keys():
+                given[name].append((node, planned, planned.parameters[name]))
+        for name, values in given.items():
+            _tell(name, program[1], values, places, told, problems)
 
 
 def _odd(resolved: Resolved, plan: Plan) -> dict[tuple[str | None, str], set[str]]:
@@ -61,22 +65,19 @@ def _odd(resolved: Resolved, plan: Plan) -> dict[tuple[str | None, str], set[str
         if (known is not None and kinds.items() <= known.items()) or node.package is None or node.faulty:
             continue  # as most nodes of a program
         known = types.setdefault(program, kinds)
-        for name, kind in kinds.items():
+        for name, kind in kinds.items() - known.items():
             if known.setdefault(name, kind) is not kind:
                 odd.setdefault(program, set()).add(name)
     return odd
 
 
 def _tell(
-    name: str, called: str, nodes: list[_Node], places: Places, told: set[Span | None], problems: Problems
+    name: str, called: str, given: list[_Given], places: Places, told: set[Span | None], problems: Problems
 ) -> None:
     """Report the values of a parameter that would be of another node's type if they were written as such."""
     # Here, because few descriptions have such.
     from orchestra.declared.texts import written  # noqa: PLC0415
 
-    given = [
-        (node, planned, planned.parameters[name]) for node, planned in nodes if name in planned.parameters
-    ]
     firsts: dict[type, _Given] = {}
     for item in given:
         firsts.setdefault(type(item[2]), item)
