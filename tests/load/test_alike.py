@@ -64,7 +64,7 @@ FEW = 4
 
 
 def _forgetful(module: Any, monkeypatch: pytest.MonkeyPatch, few: int = FEW) -> Forms:
-    forms = Forms(few)
+    forms = Forms(few, short=0)
     monkeypatch.setattr(module, "FORMS", forms)
     return forms
 
@@ -289,6 +289,16 @@ def test_what_looks_alike_may_be_of_several_forms(monkeypatch: pytest.MonkeyPatc
     assert [len(known) for known in forms.known.values()] == [2]
 
 
+def test_long_actions_are_learned_sooner_than_short_ones(monkeypatch: pytest.MonkeyPatch) -> None:
+    def learned_from(action: str) -> int:
+        forms = Forms()
+        monkeypatch.setattr(yaml_items, "FORMS", forms)
+        return next(count for count in range(1, 300) if _logs(action) and forms.known)
+
+    short, long = "- log: {message: a}\n", "- group:\n" + "  - log: {message: a, level: info}\n" * 10
+    assert learned_from(short) > 2 * learned_from(long) > 20
+
+
 def _logs(text: str) -> Sequence[Log]:
     items: Any = yaml_items
     found = actions(items, source("a", f"launch:\n{text}"), Reader(Problems()))
@@ -297,7 +307,10 @@ def _logs(text: str) -> Sequence[Log]:
 
 def test_texts_of_a_form_are_as_others(monkeypatch: pytest.MonkeyPatch) -> None:
     _forgetful(yaml_items, monkeypatch)
-    *_, read, matched = _logs("- log: {message: x $(var b) y, level: info}\n" * (FEW + 1))
+    written = "- log: {message: x $(var b) y, level: info}\n" * (FEW + 1)
+    *_, matched = _logs(written)
+    found, _ = _ordinary(yaml_file, f"launch:\n{written}")
+    *_, read, _ = cast("Sequence[Log]", found)
     text = matched.message
     assert type(read.message) is not type(text)
     assert (text != read.message, text.raw) == (True, read.message.raw)  # they stand in two places

@@ -92,15 +92,14 @@ class _Cast:
         """Return the code for an entity."""
         if not isinstance(mapping, Keyed) or not isinstance(entity, Entity) or mapping.lossy:
             raise UnlikeError
+        span = entity.span
         if set(entity.__pydantic_private__ or ()) != {"span"}:
             raise UnlikeError
         names = _names(type(entity))
         values = [(names[spelled(key)], value) for key, value in mapping.items()]
         words = [f"{name!r}: {self.value(entity, name, value)}" for name, value in values]
         kept = self.keep({**entity.__dict__, **dict.fromkeys(name for name, _ in values)})
-        return (
-            f"entity({self.keep(type(entity))}, {{**{', '.join([kept, *words])}}}, {self.place(entity.span)})"
-        )
+        return f"entity({self.keep(type(entity))}, {{**{', '.join([kept, *words])}}}, {self.place(span)})"
 
     def value(self, entity: Entity, name: str, written: Any) -> str:  # noqa: ANN401 - a tree
         """Return the code for the value of a field."""

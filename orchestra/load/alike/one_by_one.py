@@ -83,7 +83,8 @@ def _read(written: Format, whole: Source, item: Item, reader: Reader) -> Action 
     tree = written.tree(whole, item, reader)
     if not isinstance(tree, Keyed) or any(model_of(spelled(name)) is None for name in tree):
         return None
-    action = action_in(tree, reader)
+    # Models would make the same of it, but what validates their values would have to be made first.
+    action = action_in(tree, reader) if straight is None else straight[0]
     if action is None or action.faulty or len(reader.problems):
         return None
     if worth:
