@@ -34,12 +34,16 @@ else:
 
     def replace(record: Any, /, **changes: Any) -> Any:
         """Return an object like another one, with other values for some fields."""
-        for item in record.__record_fields__:
-            if item.init and item.name not in changes:
-                changes[item.name] = getattr(record, item.name)
-        return record.__class__(**changes)
+        cls = record.__class__
+        known = _TAKEN.get(cls)
+        if known is None:
+            names = [item.name for item in cls.__record_fields__ if item.init]
+            known = _TAKEN[cls] = names, values_of(names)
+        return cls(**{**dict(zip(known[0], known[1](record), strict=True)), **changes})
 
 
+# What a class is made from, with what gives that of an object.
+_TAKEN: dict[type, tuple[list[str], Callable[[Any], tuple[Any, ...]]]] = {}
 UNWRITTEN = type("Unwritten", (), {})()
 _OPTIONS = ("init", "repr", "hash", "compare", "kw_only")
 

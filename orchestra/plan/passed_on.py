@@ -95,7 +95,10 @@ class Sections:
         if not known and any(type(item) is InlineParameter and item.value is not None for item in sources):
             # No other node has these, and there is something in it.
             return partial(self._content, sources, own, name, known)
-        key = (known or name, *[id(getattr(item, "sections", item)) for item in sources])
+        key = (
+            known or name,
+            *[id(item if isinstance(item, InlineParameter) else item.sections) for item in sources],
+        )
         if key not in self._passed_on:
             self._passed_on[key] = self._content(sources, own, name, known)
         return self._passed_on[key] or None

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 
 _VARIABLE: Final = "var"
 _FOLDER: Final = "dirname"
+_PLAIN: Final = (_VARIABLE, _FOLDER)
 _folder_of: Final = lru_cache(maxsize=64)(os.path.dirname)  # as `$(dirname)` does; many nodes are of one file
 
 
@@ -35,7 +36,9 @@ def evaluate(template: Template, context: Context) -> Evaluated:
         if len(parts) == 1 and type(parts[0]) is Words:
             at = new_location(template.span, context.included_from)
             return new_value(parts[0].text, at, verbatim=True)
-        value = _at_once(template, parts, context)
+        alone = parts[0] if len(parts) == 1 else None
+        other = type(alone) is Call and alone.name not in _PLAIN
+        value = None if other else _at_once(template, parts, context)
         if value is not None:
             return value
     return _concatenated(template, context)

@@ -18,7 +18,6 @@ from orchestra.values import Condition, Limits, ParameterValue, Restart, Stop
 
 if TYPE_CHECKING:
     from orchestra.description.entity import Entity
-    from orchestra.description.parts import Param
 
 DependencyKind: TypeAlias = Literal["node", "process", "label", "action"]
 Kind: TypeAlias = Literal["process", "node", "lifecycle_node", "container"]
@@ -41,11 +40,9 @@ class ResolvedArgument:
 
 
 class _Written:
-    """What an entity and the includes that led to it say, where the places of something are not worked out yet."""
+    """What is written, where the places of something are not worked out yet."""
 
     __slots__ = ("_written",)
-
-    _written: tuple[Param, tuple[Span, ...]]
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,8 +50,8 @@ class InlineParameter(_Written):
     """A parameter written in the description; `everywhere` where it was set for all nodes of a scope.
 
     `keys` are the names it is written with, from the outermost level inwards: each as far as it goes, and its place.
-    `items` are the places of a list's items, none where they are not known. Few places are ever asked for: one that
-    is made by `plainly` gets them when the first is.
+    `items` are the places of a list's items, none where they are not known. Few places are ever asked for: see
+    `plainly`.
     """
 
     name: str
@@ -91,7 +88,7 @@ def place_of(
 
 
 @dataclass(frozen=True, slots=True)
-class FileParameters:
+class FileParameters(_Written):
     """The sections of a parameter file, as far as it could be read; `everywhere` as with a single parameter.
 
     `plain` are the parameters of a file that has no sections at all, which only components take. `through` is what was
@@ -107,6 +104,14 @@ class FileParameters:
     through: tuple[Read, ...] = field(default=(), compare=False, repr=False)
     within: tuple[tuple[Span, tuple[Read, ...]], ...] = field(default=(), compare=False, repr=False)
     sound: bool = True
+
+    if not TYPE_CHECKING:  # as above: what is written is the value that is the path
+
+        def __getattr__(self, name: str) -> object:
+            if name != "location":
+                raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
+            object.__setattr__(self, name, self._written.location)
+            return self.location
 
 
 # What a resolution makes thousands of; `new_remap` and `new_process` are another two.
@@ -172,16 +177,13 @@ new_change = maker(EnvironmentChange)
 class ResolvedProcess:
     """One process. `program` starts it; a node's arguments and ROS arguments are added by the plan.
 
-    What differs in nodes and other programs comes first; how it runs is filled in by `add_process`, before anybody
-    else has it.
-
-    `conditional` tells that a condition, which is true, stands on it or around it. `faulty` marks a process of which
-    something has been reported: what follows from it is not reported again. `parameter_arguments` are what the node's
-    own arguments say of its parameters, on the command line before `parameters`, and so
-    many of the first `remaps` stand there. Without `inherit_environment` it gets
-    nothing but `environment`. `stdin` is the place that says that it reads what is typed. `through` was
-    read to make the words of its command line. `share` is the share folder of its package, where that is here. `origin`
-    is the object of a Python launch file that made it, `around` are those that it came out of, this one included.
+    How it runs is filled in by `add_process`, before anybody else has it. `conditional` tells that a condition, which
+    is true, stands on it or around it. `faulty` marks a process of which something has been reported: what follows from
+    it is not reported again. `parameter_arguments` are what the node's own arguments say of its parameters, on the
+    command line before `parameters`, and so many of the first `remaps` stand there. Without `inherit_environment` it
+    gets nothing but `environment`. `stdin` is the place that says that it reads what is typed. `through` was read to
+    make the words of its command line. `share` is the share folder of its package, where that is here. `origin` is the
+    object of a Python launch file that made it, `around` are those that it came out of, this one included.
     """
 
     kind: Kind

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from functools import lru_cache
 from pathlib import Path
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.description.source import shortened
 from orchestra.description.substitutions import SIGNATURES
@@ -15,7 +15,7 @@ from orchestra.load.encodings import UndecodableError, decoded
 from orchestra.location import Location, displayed, point
 from orchestra.patterns import pattern
 from orchestra.resolve.context import Value
-from orchestra.resolve.model import FileParameters, new_file
+from orchestra.resolve.model import FileParameters
 from orchestra.resolve.near_paths import near_path
 from orchestra.resolve.paths import beside, existing_file, folder_of
 from orchestra.resolve.rcl.files import read_kept, read_plain_file
@@ -85,16 +85,17 @@ def _from_here(path: str, run: Resolution) -> str:
 
 def _given(file: FileParameters, value: Value, *, everywhere: bool) -> FileParameters:
     """Return a file as it is given by a value that is its path."""
-    return new_file(
-        file.path,
-        file.sections,
-        value.location,
-        everywhere,
-        file.plain,
-        value.through,
-        file.within,
-        file.sound,
-    )
+    made: Any = _new(FileParameters)
+    made._written = value  # noqa: SLF001 - it is made here
+    made.path, made.sections, made.plain = file.path, file.sections, file.plain
+    made.everywhere = everywhere
+    made.through = value.through
+    made.within, made.sound = file.within, file.sound
+    given: FileParameters = made
+    return given
+
+
+_new = object.__new__
 
 
 def _warn_of_lacking(told: str, value: Value, written: Template, run: Resolution) -> None:

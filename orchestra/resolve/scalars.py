@@ -162,12 +162,10 @@ def items_alike(items: Sequence[Template]) -> ParameterValue | None:
     """Return what the items of a list in a file are to everybody, None where that takes a closer look."""
     values: list[Any] = []
     for item in items:
-        text = item.constant if type(item) is MatchedTemplate else None
-        value = None if not text else text if item.quoted else read_alike(text)
-        if value is None or type(value) is not type(values[0] if values else value):
+        if type(item) is not MatchedTemplate or not item.constant:
             return None
-        values.append(value)
-    return tuple(values) or None
+        values.append(item.constant if item.quoted else read_alike(item.constant))
+    return tuple(values) if len(set(map(type, values))) == 1 and values[0] is not None else None
 
 
 def _list_alike(text: str) -> ParameterValue | None:

@@ -15,7 +15,6 @@ from typing import TYPE_CHECKING, TypeAlias
 from orchestra.dataclass import dataclass
 from orchestra.errors import Code
 from orchestra.fields import field
-from orchestra.location import Location
 from orchestra.plan.checks.section_keys import absolute, is_for_any, is_one_key, key_for, outer_key, words_of
 from orchestra.plan.ids import full_names, node_name
 from orchestra.resolve.model import FileParameters, ResolvedProcess
@@ -44,7 +43,7 @@ class _File:
     """A parameter file and the nodes that it is given to, by their full names; `open`: one has no known name."""
 
     source: FileParameters
-    users: dict[str, tuple[Location, _Node]] = field(default_factory=dict)
+    users: dict[str, tuple[FileParameters, _Node]] = field(default_factory=dict)
     open: bool = False
 
     def program(self, name: str) -> tuple[str | None, ...]:
@@ -123,7 +122,7 @@ def _files(resolved: Resolved) -> list[_File]:
             if name is None:
                 file.open = True
             elif name not in file.users:
-                file.users[name] = (source.location, node)
+                file.users[name] = (source, node)
     return list(files.values())
 
 
@@ -255,7 +254,7 @@ def _report(
     problems: Problems,
     told: set[object],
 ) -> None:
-    place, given_at = section.location, file.users[name][0]
+    place, given_at = section.location, file.users[name][0].location
     if place.span in told:
         return
     if instead is None and (outer := outer_key(section, name, file.source.path)) is not None:
@@ -293,7 +292,7 @@ def _report_without(
         problems.warning(
             Code.UNMATCHED_SECTION,
             f"the parameter file has no section for {whom}",
-            file.users[name][0],
+            file.users[name][0].location,
             notes=("it has " + ", ".join(f"'{pattern}'" for pattern in patterns),),
         )
         if file.source.everywhere:
