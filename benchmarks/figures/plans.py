@@ -6,27 +6,34 @@ import resource
 from typing import TYPE_CHECKING
 
 from benchmarks import launching, node_tree, varied_tree
-from benchmarks.figure import Figure, Sample
+from benchmarks.figure import Figure, Sample, Site
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Callable, Mapping
     from pathlib import Path
-
-    from benchmarks.figure import Site
 
 _SIZES = (100, 300, 1000)
 _COMPOSE = "composing the same bytes with PyYAML's C parser"
+_WHOLE = "an interpreter that composes the same bytes so"
 _YAML = "the same nodes in YAML"
 FIGURES = (
     Figure("plan-yaml", "plan of 1,000 nodes in YAML", _COMPOSE, "ratio", 3.0, "s", 1000, _SIZES, 20),
     Figure("plan-mixed", "the same, of many kinds", _COMPOSE, "ratio", 3.0, "s", 1000, _SIZES, 20),
-    Figure("plan-again", "`orchestra plan` of it again, all of it", _COMPOSE, "ratio", 3.0, "s", 1000, _SIZES, 20),
     Figure("plan-xml", "the same in XML", _YAML, "ratio", 1.0, "s", 1000, _SIZES, 20),
     Figure("plan-python", "the same in Python", _YAML, "ratio", 1.0, "s", 1000, _SIZES, 20),
     Figure("plan-compiled", "the same in Python, planned before", _YAML, "ratio", 1.0, "s", 1000, _SIZES, 20),
     Figure(
         "plan-growth", "plan of 10,000 nodes in YAML", "plan of 1,000 nodes",
         "exponent", 1.1, "s", 1000, (100, 300, 1000), 20,
+    ),
+    Figure(
+        "plan-command", "`orchestra plan` of 1,000 nodes in YAML, all of it", _WHOLE,
+        "ratio", 3.0, "s", 1000, _SIZES, 20,
+    ),
+    Figure("plan-again", "`orchestra plan` of it again, all of it", _COMPOSE, "ratio", 3.0, "s", 1000, _SIZES, 20),
+    Figure(
+        "plan-command-mixed", "`orchestra plan` of many kinds, all of it", _WHOLE,
+        "ratio", 3.0, "s", 1000, _SIZES, 20,
     ),
 )  # fmt: skip
 
@@ -59,18 +66,27 @@ print(time.process_time() - began)
 def measure(site: Site, size: int) -> Mapping[str, Sample]:
     """Measure it with so many nodes, and with ten times as many."""
     files = {language: node_tree.write(site.folder, language, size) for language in ("yaml", "xml", "py")}
-    composed = launching.printed(_COMPOSING, [files["yaml"].parent], site)
+    composed, process = _composed(site, files["yaml"])
     varied = varied_tree.write(site.folder, size)
-    composed_varied = launching.printed(_COMPOSING, [varied.parent], site)
+    composed_varied, process_varied = _composed(site, varied)
     # New in a folder that code is imported from, it would be a reason to make the plan again.
-    (site.folder / "cache").mkdir()
+    for name in ("cache", "commands"):
+        (site.folder / name).mkdir()
+    apart = Site(
+        site.folder, launching.with_variables(site.environment, ORCHESTRA_CACHE=site.folder / "commands")
+    )
+    command, again, command_varied = (
+        _commanded(apart, file) for file in (files["yaml"], files["yaml"], varied)
+    )
     yaml, xml, python = (_planned(site, language, file, size) for language, file in files.items())
     compiled = _planned(site, "py", files["py"], size)
     many = _planned(site, "yaml", node_tree.write(site.folder, "yaml", 10 * size), 10 * size)
     return {
         "plan-yaml": Sample(yaml, composed),
         "plan-mixed": Sample(_planned(site, "yaml", varied, size), composed_varied),
-        "plan-again": Sample(_again(site, files["yaml"]), composed),
+        "plan-command": Sample(command, process),
+        "plan-command-mixed": Sample(command_varied, process_varied),
+        "plan-again": Sample(again, composed),
         "plan-xml": Sample(xml, yaml),
         "plan-python": Sample(python, yaml),
         "plan-compiled": Sample(compiled, yaml),
@@ -78,18 +94,28 @@ def measure(site: Site, size: int) -> Mapping[str, Sample]:
     }
 
 
-def _again(site: Site, file: Path) -> float:
-    """Return the seconds that a command took which another one with the same words came before."""
-    _planning(site, file)
+def _composed(site: Site, file: Path) -> tuple[float, float]:
+    """Return the seconds that it takes to compose the files beside one, and those of the interpreter that does it."""
+    seconds = []
+    whole = _of_children(lambda: seconds.append(launching.printed(_COMPOSING, [file.parent], site)))
+    return seconds[0], whole
+
+
+def _commanded(site: Site, file: Path) -> float:
+    """Return the seconds of a command, from its interpreter's start to its end."""
+
+    def planned() -> None:
+        with launching.started(launching.orchestra("plan", file), site) as popen:
+            launching.finished(popen)
+
+    return _of_children(planned)
+
+
+def _of_children(call: Callable[[], None]) -> float:
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    _planning(site, file)
+    call()
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
-
-
-def _planning(site: Site, file: Path) -> None:
-    with launching.started(launching.orchestra("plan", file), site) as popen:
-        launching.finished(popen)
 
 
 def _planned(site: Site, language: str, file: Path, size: int) -> float:
