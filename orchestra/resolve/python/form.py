@@ -48,7 +48,7 @@ class Form:
         keys, other_keys = self._keys(own), self._keys(values)
         if keys is None or other_keys is None:
             raise ValueError("what is equal in one text is not in the other one")
-        self._columns = Columns(parts, {index for index, before in places.items() if before is not None})
+        self._columns = Columns(parts, [index for index, before in places.items() if before is not None])
         self._widths = list(map(len, own))
         self._moved: tuple[list[int], list[int] | None] = self._widths, None
         classes = Classes(keys, other_keys)

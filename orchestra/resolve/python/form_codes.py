@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import accumulate
 from operator import sub
 from types import CodeType
 from typing import TYPE_CHECKING, Any, Final
@@ -9,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Final
 from orchestra.resolve.python.form_slots import Name
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Sequence
+    from collections.abc import Collection, Iterable, Sequence
 
     from orchestra.resolve.python.line_tables import LineTable
 
@@ -81,18 +82,24 @@ def _key(constant: Any) -> Any:
 class Columns:
     """How far columns move with the literals before them on a line; literals are numbered from 1."""
 
-    def __init__(self, parts: Sequence[str], places: Collection[int]) -> None:
-        """Take the places of literals in a text that was split."""
+    def __init__(self, parts: Sequence[str], places: Iterable[int]) -> None:
+        """Take the places of literals in a text that was split, in their order."""
         self._before: dict[int, list[tuple[int, int]]] = {}
         self._begin: list[bool] = []
-        line, column = 1, 0
-        for index, part in enumerate(parts):
-            if index & 1 and index // 2 in places:
-                self._begin.append(line not in self._before)
-                self._before.setdefault(line, []).append((column, len(self._begin)))
-            lines = part.count("\n")
-            line += lines
-            column = len(part) - part.rfind("\n") - 1 if lines else column + len(part)
+        text, ends = "".join(parts), list(accumulate(map(len, parts)))
+        line, last = 1, 0
+        for place in places:
+            at = ends[2 * place]
+            line += text.count("\n", last, at)
+            last = at
+            known = self._before.setdefault(line, [])
+            self._begin.append(not known)
+            known.append((at - text.rfind("\n", 0, at) - 1, len(self._begin)))
+
+    @property
+    def lines(self) -> Collection[int]:
+        """The lines on which a literal is."""
+        return self._before.keys()
 
     def number(self, line: int, column: int) -> int:
         """Return the number of the last literal of a line that begins before a column, 0 for none."""
@@ -190,8 +197,8 @@ class CodeForm:
             # Here, because literals are as long as those before in many trees.
             from orchestra.resolve.python.line_tables import LineTable  # noqa: PLC0415
 
-            code = self._code
-            self._table = LineTable(code.co_linetable, code.co_firstlineno, self._columns.number)
+            code, columns = self._code, self._columns
+            self._table = LineTable(code.co_linetable, code.co_firstlineno, columns.lines, columns.number)
         return self._table.moved(shifts)
 
 

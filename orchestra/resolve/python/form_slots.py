@@ -14,6 +14,8 @@ import re
 from keyword import iskeyword, kwlist
 from typing import TYPE_CHECKING, Any, Final
 
+from orchestra.patterns import pattern
+
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterable, Iterator, Sequence
 
@@ -28,19 +30,18 @@ _LEXEME: Final = re.compile(
     re.DOTALL | re.VERBOSE,
 )
 QUOTES: Final = "'\""
-_TEXT: Final = re.compile(r"""'[^'\\\n]*'|"[^"\\\n]*\"""")
 _NAME: Final = re.compile(r"[A-Za-z_]\w*\Z", re.ASCII)
 _WORD: Final = re.compile(r"[A-Za-z_]\w*", re.ASCII)
-# What begins a text in braces, and all of one that holds nothing but names, calls and the like.
-_BRACES: Final = re.compile(r"(?:\A|\W)[fF]\Z")
-_FLAT: Final = re.compile(r"""(["'])(?:""|'')?(?:[^{}'"\\]|\{[^{}'"\\]*\})*["']+""")
+# A text in braces that holds nothing but names, calls and the like.
+_OF_BRACES: Final = "fF"
+_FLAT: Final = pattern(r"""(["'])(?:""|'')?(?:[^{}'"\\]|\{[^{}'"\\]*\})*["']+""")
 # Without literals and blanks: signs of plain statements, of numbers and of what a function returns, and what is not
 # plain of that.
 _PLAIN: Final = b'()[]{},:=."_0123456789abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ'
 _SIGNED: Final = tuple(f"{before}-0" for before in "([{,=:")
 _NOT_PLAIN: Final = ("==", ":=", ")[", "][", "}[", '"[')
 _IN_BRACES: Final = '@""'  # for a text in braces, which is not plain
-_ENDING: Final = re.compile(r"[()\[\]{}\n]")
+_ENDING: Final = pattern(r"[()\[\]{}\n]")
 _KEYWORDS: Final = frozenset(kwlist) - {
     *("from", "import", "as", "def", "return", "None", "True", "False", "for", "in")
 }
@@ -67,7 +68,8 @@ def key_of(literal: str) -> Any:
     None where it is not plain: the same value may be written in several ways.
     """
     if literal[0] in QUOTES:
-        return literal[1:-1] if _TEXT.fullmatch(literal) else None
+        text = literal[1:-1]
+        return None if literal[0] in text or "\\" in text or "\n" in text else text
     return number_of(literal)
 
 
@@ -164,7 +166,8 @@ def _bare(parts: Sequence[str]) -> tuple[str, list[int]]:
 
 
 def _in_braces(before: str, literal: str) -> str:
-    if _BRACES.search(before) is None or _FLAT.fullmatch(literal) is None:
+    is_alone = before[-1:] in _OF_BRACES and not (before[-2:-1].isalnum() or before[-2:-1] == "_")
+    if not is_alone or _FLAT.fullmatch(literal) is None:
         raise ValueError("a text of another kind")
     return _IN_BRACES
 

@@ -11,7 +11,7 @@ import re
 from typing import TYPE_CHECKING, Final, TypeAlias
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Sequence
+    from collections.abc import Callable, Collection, Iterator, Sequence
 
 # How many units of code stand somewhere: so many lines below the entry before, over so many lines more, from a column
 # to another one; these are -1 where none are known.
@@ -31,8 +31,10 @@ _SHORT_COLUMNS, _SHORT_WIDTH, _COLUMNS, _LINES = 80, 16, 128, 3
 class LineTable:
     """The table of a code, whose columns move with the texts before them."""
 
-    def __init__(self, table: bytes, first: int, moved_by: Callable[[int, int], int]) -> None:
-        """Take the table of a code apart that begins at a line.
+    def __init__(
+        self, table: bytes, first: int, lines: Collection[int], moved_by: Callable[[int, int], int]
+    ) -> None:
+        """Take the table of a code apart that begins at a line; columns move on some `lines`.
 
         `moved_by` says for a line and a column of it the number of the shift that it has, 0 for none.
         """
@@ -40,10 +42,13 @@ class LineTable:
         self._last: tuple[Sequence[int], bytes] | None = None
         line, fixed = first, list[bytes]()
         for written in _ENTRY.findall(table):
+            if line not in lines and (written[0] >> 3) & 15 < _ONE_LINE:  # of a line that does not move
+                fixed.append(written)
+                continue
             entry = _entry(written)
             _, down, over, column, end = entry
             line += down
-            if column < 0:
+            if column < 0 or (line not in lines and line + over not in lines):
                 fixed.append(written)
                 continue
             begin, behind = moved_by(line, column), moved_by(line + over, end)
