@@ -112,9 +112,14 @@ def _report_unit(entry: Entry, found: re.Match[str], numbers: set[str], problems
 def _report_lost(entry: Entry, lines: Sequence[str], problems: Problems) -> None:
     """Report what looks like a number and names something: the float that it is read as does not say it any more."""
     text = _text_at(entry.location, lines)
-    if _IN_DIGITS.fullmatch(text) and _NAMING.search(entry.name):
+    if _IN_DIGITS.fullmatch(text) and is_of_name(entry.name):
         told = f"'{text}' is read as the float {entry.value}: a text is written \"{text}\""
         problems.warning(Code.SURPRISING_SCALAR, told, entry.location, suggestion=f'"{text}"')
+
+
+def is_of_name(name: str) -> bool:
+    """Return whether what a parameter of this name has is a name of something, and no quantity."""
+    return _NAMING.search(name) is not None
 
 
 def _report_list(entry: Entry, lines: Sequence[str], problems: Problems) -> None:

@@ -12,7 +12,7 @@ from orchestra.resolve.rcl.surprises import surprise
 if TYPE_CHECKING:
     from orchestra.values import Scalar
 
-_NUMBER: Final = pattern(r"-?(?:0|[1-9][0-9]{0,14})(?:\.(?:0|[0-9]{0,14}[1-9]))?")
+_NUMBER: Final = pattern(r"-?(?:0|[1-9][0-9]{0,14})(?:\.[0-9]{1,15})?")
 _NUMERIC: Final = frozenset("+-.0123456789")
 _QUOTES: Final = ("'", '"')
 _BOOLEANS: Final = {"true": True, "True": True, "false": False, "False": False}
@@ -25,6 +25,17 @@ _SIGNED: Final = ("e-", "e+", "E-", "E+")
 
 class Unlike(Exception):  # noqa: N818 - no fault of anybody
     """It takes a closer look."""
+
+
+def named_value(written: str, name: str) -> Scalar:
+    """Return the value of a scalar for a parameter. Raises `Unlike`, as where a zero at its end may be of a name."""
+    value = value_of(written)
+    if written[-1] == "0" and isinstance(value, float) and written[-2] != ".":
+        from orchestra.resolve.rcl.oddities import is_of_name  # noqa: PLC0415 - few numbers end so
+
+        if is_of_name(name):
+            raise Unlike
+    return value
 
 
 def value_of(written: str) -> Scalar:
@@ -51,7 +62,6 @@ def _read(text: str) -> Scalar | None:
         return text
     value = typed(text)
     if isinstance(value, float):
-        # What loses digits may be a name.
         plain = text[-1] != "0" if "e" not in text.lower() else any(sign in text for sign in _SIGNED)
     else:
         plain = text[0] != "-" and not _may_have_unit(text)

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Final
 from orchestra.location import new_location, new_span
 from orchestra.patterns import pattern
 from orchestra.resolve.rcl.patterns import pattern_fault
-from orchestra.resolve.rcl.plain_values import Unlike, value_of
+from orchestra.resolve.rcl.plain_values import Unlike, named_value, value_of
 from orchestra.resolve.rcl.sections import Section, new_entry
 from orchestra.resolve.rcl.strays import SECTION_KEY, is_misspelt_section
 
@@ -175,7 +175,8 @@ class _Lines:
             elif written[0] == "{":
                 self._group(number, line, key, group)
             else:
-                self._put(line[2], value_of(written), self._place(number, line, 3), key, group)
+                value = named_value(written, f"{group}.{line[2]}" if group else line[2])
+                self._put(line[2], value, self._place(number, line, 3), key, group)
         self._end(column)
 
     def _put(
@@ -265,7 +266,7 @@ class _Lines:
             found = _PAIR.match(line.string, at, end)
             if found is None:
                 raise Unlike
-            value, first = value_of(found[2]), line.start()
+            value, first = named_value(found[2], f"{name}.{found[1]}"), line.start()
             self._put(
                 found[1],
                 value,
