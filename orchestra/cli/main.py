@@ -68,9 +68,9 @@ def _dispatch(words: Sequence[str], *, heeding: bool) -> int:
         sys.stdout.write(overview())
         return 0
     if name == "--version":
-        from importlib.metadata import version  # noqa: PLC0415 - slow, and `--help` does not need it
+        from orchestra.cli.version import version  # noqa: PLC0415 - only here
 
-        sys.stdout.write(f"orchestra {version('orchestra')}\n")
+        sys.stdout.write(f"orchestra {version()}\n")
         return 0
     if name not in COMMANDS:
         near = nearest(name, COMMANDS)
