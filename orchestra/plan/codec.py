@@ -25,8 +25,8 @@ Read: TypeAlias = Callable[[Any], Any]
 _SURROGATE = pattern("[\ud800-\udfff]")
 
 
-def dumps(plan: model.Plan, *, indent: int | None = None) -> str:
-    """Return the plan as JSON: the same plan always gives the same text.
+def dumps(plan: model.Plan | dict[str, Any], *, indent: int | None = None) -> str:
+    """Return the plan, or what JSON data says of one, as JSON: the same plan always gives the same text.
 
     Texts that are no Unicode, as bytes of the command line may be, are written as escapes, so that it is always UTF-8.
     """

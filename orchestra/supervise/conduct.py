@@ -10,7 +10,6 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from orchestra.fields import replace
-from orchestra.plan import codec
 from orchestra.supervise.keeping.attention import Attention
 from orchestra.supervise.keeping.dump import Dump
 from orchestra.supervise.keeping.kin import Kin, send_to_groups
@@ -63,7 +62,7 @@ def conduct(beginnings: Beginnings) -> int:
         run_directory = directory.create(runs, wanted, exact=document.options.named)
         if document.options.files is not None:
             run_directory.adopt(document.options.files)
-        plan = _furnish(document.plan, run_directory)
+        plan = _furnish(document, run_directory)
     except directory.NameTakenError as error:
         raise Refused(MISTAKE, str(error)) from error
     except OSError as error:
@@ -120,12 +119,10 @@ def _collect(
         send_to_groups([adopted.pid for adopted in kin.of(None)], signal.SIGKILL)
 
 
-def _furnish(plan: Plan, run_directory: RunDirectory) -> Plan:
+def _furnish(document: Document, run_directory: RunDirectory) -> Plan:
     """Write the plan and the parameter files; return the plan with the run directory filled in."""
-    (run_directory.path / "plan.json").write_text(
-        codec.dumps(plan, indent=2) + "\n", "utf-8", "surrogatepass"
-    )
-    return furnish(plan, str(run_directory.path))
+    (run_directory.path / "plan.json").write_text(document.text, "utf-8", "surrogatepass")
+    return furnish(document.plan, str(run_directory.path))
 
 
 def _run(

@@ -7,6 +7,10 @@ from typing import TYPE_CHECKING
 
 import pytest
 
+from orchestra.fields import replace
+from orchestra.location import Location, Span
+from orchestra.plan import codec
+from orchestra.plan.model import Provenance
 from orchestra.supervise.options import RunOptions
 from orchestra.supervise.resolver import document
 from tests.pressure import Deadline
@@ -64,7 +68,22 @@ def test_a_run_directory_that_cannot_be_made_is_told(tmp_path: Path) -> None:
 
 def test_a_document_comes_back_as_it_was() -> None:
     what, options = plan(process("a", "say=\udc80é")), RunOptions("name", fail_on_any=True, colour=False)
-    assert document.loads(document.dumps(what, options)) == (what, options)
+    assert document.loads(document.dumps(what, options)) == (
+        what,
+        options,
+        codec.dumps(what, indent=2) + "\n",
+    )
+
+
+def test_where_values_come_from_is_in_the_text_alone() -> None:
+    place = Location(Span("a.yaml", 3, 5, 3, 9))
+    known = process("a", "true", provenance=Provenance(name=place))
+    for count in (1, 300):
+        read = document.loads(document.dumps(plan(*[known] * count), RunOptions("name")))
+        assert read.plan == plan(*[replace(known, provenance=Provenance())] * count)
+        assert codec.loads(read.text) == plan(*[known] * count)
+        assert read.text.endswith("\n")
+        assert (read.text.count("\n") == 1) == (count > 200)
 
 
 @pytest.mark.parametrize(

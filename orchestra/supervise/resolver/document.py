@@ -3,38 +3,58 @@
 from __future__ import annotations
 
 import json
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
 from orchestra.plan import codec, model
-from orchestra.plan.json_text import text_of
 from orchestra.supervise import options
 
 if TYPE_CHECKING:
     from orchestra.supervise.options import RunOptions
 
+_MOST_SHOWN: Final = 200  # processes: to write more than these line by line holds up the first by 20 ms
+
 
 class Document(NamedTuple):
-    """A plan and how to run it."""
+    """A plan and how to run it.
+
+    `text` is the whole plan as JSON. In `plan` it is left out where values come from: nobody asks for that while it
+    runs, and it is two thirds of the text.
+    """
 
     plan: model.Plan
     options: RunOptions
+    text: str
 
 
 def dumps(plan: model.Plan, run_options: RunOptions) -> bytes:
     """Return the document for the stream that `prepare` is given."""
-    chosen = json.dumps(options.encode(run_options), ensure_ascii=False)
-    return f'{{"plan": {text_of(plan)}, "options": {chosen}}}'.encode("utf-8", "surrogatepass")
+    return f"{_before(options.encode(run_options))}{codec.dumps(plan)}}}".encode("utf-8", "surrogatepass")
 
 
 def loads(content: bytes) -> Document:
     """Read a document. Raises `ValueError` where it is none."""
-    document = json.loads(content.decode("utf-8", "surrogatepass"))
+    written = content.decode("utf-8", "surrogatepass")
+    document = json.loads(written)
     if not isinstance(document, dict) or document.keys() - {"plan", "options"} or "plan" not in document:
         raise ValueError("not an object with a plan")
     plan = document["plan"]
     if not isinstance(plan, dict) or plan.get("version") != model.VERSION:
         raise ValueError(f"not a plan of version {model.VERSION}")
     try:
-        return Document(codec.decode(model.Plan, plan), options.decode(document.get("options", {})))
+        text = _text(plan, _before(document.get("options", {})), written)
+        for record in (*plan["processes"], *plan["components"]):
+            record["provenance"] = {}
+        return Document(codec.decode(model.Plan, plan), options.decode(document.get("options", {})), text)
     except (KeyError, TypeError, AttributeError, IndexError) as error:
         raise ValueError(f"the plan is not complete: {error!r}") from error
+
+
+def _before(chosen: dict[str, Any]) -> str:
+    return f'{{"options": {json.dumps(chosen, ensure_ascii=False)}, "plan": '
+
+
+def _text(plan: dict[str, Any], before: str, written: str) -> str:
+    """Return the plan for people, with a line for each value; a large one, which nobody reads so, as it is written."""
+    if len(plan["processes"]) > _MOST_SHOWN and written.startswith(before):
+        return f"{written[len(before) : -1]}\n"
+    return f"{codec.dumps(plan, indent=2)}\n"
