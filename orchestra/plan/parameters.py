@@ -27,7 +27,7 @@ from orchestra.values import ParameterValue
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
-    from orchestra.plan.passed_on import Content
+    from orchestra.plan.passed_on import Content, Part
     from orchestra.resolve.model import (
         ParameterSource,
         Resolved,
@@ -108,7 +108,7 @@ def _plain(
         found = _each_once(parameters, own, full, sections)
         if found is None:
             return None
-        values = _values(found, sections)
+        values = _values(found)
         if whole:
             passed = sections.passed_on(process, own)
     elif whole and own == EVERY_NODE:
@@ -148,12 +148,12 @@ def _inline_once(parameters: Sequence[ParameterSource]) -> dict[str, ParameterVa
 
 def _each_once(
     parameters: Sequence[ParameterSource], own: str, full: str | None, sections: Sections
-) -> dict[str, list[InlineParameter | Section]] | None:
+) -> dict[str, list[InlineParameter | Part]] | None:
     """Return what sets parameters by pattern, the patterns in the order in which they appear first.
 
     None where one is written twice, or may take the slot of another, and for files of a node without a name.
     """
-    found: dict[str, list[InlineParameter | Section]] = {}
+    found: dict[str, list[InlineParameter | Part]] = {}
     taken: set[str] = set()
     for source in parameters:
         if type(source) is InlineParameter:
@@ -168,37 +168,34 @@ def _each_once(
             continue
         if full is None:
             return None
-        for section in sections.of_file(source, full):  # type: ignore[arg-type]  # the other kind of source
-            apart = sections.apart(section)
-            if apart is None or not taken.isdisjoint(apart[1]):
+        for part in sections.parts(source, full):  # type: ignore[arg-type]  # the other kind of source
+            if part is None or not taken.isdisjoint(part.names):
                 return None
-            taken.update(apart[1])
-            found.setdefault(section.pattern, []).append(section)
+            taken.update(part.names)
+            found.setdefault(part.section.pattern, []).append(part)
     return found
 
 
-def _values(
-    found: dict[str, list[InlineParameter | Section]], sections: Sections
-) -> dict[str, ParameterValue]:
+def _values(found: dict[str, list[InlineParameter | Part]]) -> dict[str, ParameterValue]:
     values: dict[str, ParameterValue] = {}
     for sources in found.values():
         for source in sources:
             if type(source) is not InlineParameter:
-                values.update(sections.apart(source)[0])  # type: ignore[index,arg-type]  # it has been found so
+                values.update(source.values)  # type: ignore[union-attr]  # the other kind
             elif source.value is not None:
                 values[source.name] = source.value
     return values
 
 
 def _told(
-    source: InlineParameter | Section, rule: str, known: candidates.Origins
+    source: InlineParameter | Part, rule: str, known: candidates.Origins
 ) -> Iterator[tuple[str, tuple[Candidate, ...]]]:
     """Yield the names of parameters with the one value that is written for each."""
     if isinstance(source, InlineParameter):
         through = candidates.passage(source.through)
         yield source.name, (new_candidate(source.value, source.location, True, rule, through),)
         return
-    for name, entry in (alone(source) or ({}, ()))[0].items():
+    for name, entry in (alone(source.section) or ({}, ()))[0].items():
         through = candidates.behind(entry.location, known)
         yield name, (new_candidate(entry.value, entry.location, True, rule, through),)
 

@@ -7,7 +7,7 @@ nodes would be passed on a thousand times else, and a change of one section woul
 from __future__ import annotations
 
 from functools import partial
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from orchestra.plan.ids import node_name
 from orchestra.plan.parameter_file import line, with_lines
@@ -26,10 +26,17 @@ if TYPE_CHECKING:
 
     # Of a file that is passed on: the text, or what makes it when somebody asks for it.
     Content: TypeAlias = "str | Callable[[ParameterFile], str]"
-    _Apart: TypeAlias = "tuple[dict[str, ParameterValue], Collection[str]]"
     _Block: TypeAlias = "tuple[str, Collection[str], list[str] | None]"
 
 EVERY_NODE = "/**"
+
+
+class Part(NamedTuple):
+    """A section of a file in which nothing is in the way of anything: its values by name, and all names it takes."""
+
+    section: Section
+    values: dict[str, ParameterValue]
+    names: Collection[str]
 
 
 class Sections:
@@ -42,7 +49,8 @@ class Sections:
         self._nodes = nodes
         self._files: dict[int, Indexed] = {}
         self._others: dict[int, _Others] = {}
-        self._apart: dict[int, _Apart | None] = {}
+        self._parts: dict[int, Part | None] = {}
+        self._shared: dict[int, Sequence[Part | None]] = {}
         self._passed_on: dict[tuple[object, ...], str] = {}
         # By identities: entries and sections are kept, so that no others get theirs.
         self._lines: dict[tuple[str, int], tuple[Entry, str]] = {}
@@ -65,16 +73,25 @@ class Sections:
         """Return the sections of a file that are for a node."""
         return self._matching(source.sections, full)
 
-    def apart(self, section: Section) -> _Apart | None:
-        """Return the values of a section of a file, and all names that it takes; None where some are in the way."""
+    def parts(self, source: FileParameters, full: str) -> Sequence[Part | None]:
+        """Return the sections of a file that are for a node, with what they set; None for one that is not so plain."""
+        index = self._index(source.sections)
+        if not index.for_all:
+            return [self._part(section) for section in index.matching(full)]
+        known = self._shared.get(id(source.sections))
+        if known is None:
+            known = self._shared[id(source.sections)] = [self._part(section) for section in source.sections]
+        return known
+
+    def _part(self, section: Section) -> Part | None:
         key = id(section)
-        if key in self._apart:
-            return self._apart[key]
+        if key in self._parts:
+            return self._parts[key]
         entries = alone(section)
-        known = self._apart[key] = entries and (
-            {name: entry.value for name, entry in entries[0].items() if entry.value is not None},
-            entries[1],
-        )
+        values = entries and {
+            name: entry.value for name, entry in entries[0].items() if entry.value is not None
+        }
+        known = self._parts[key] = entries and Part(section, values or {}, entries[1])
         return known
 
     def given_to(self, node: ResolvedProcess | ResolvedComponent) -> list[Section]:
@@ -193,10 +210,14 @@ class Sections:
         others = self._others[id(sections)]
         return others.sections if known else others.with_those_of(name)
 
-    def _matching(self, sections: tuple[Section, ...], full: str | None) -> list[Section]:
+    def _index(self, sections: tuple[Section, ...]) -> Indexed:
         index = self._files.get(id(sections))
         if index is None:
             index = self._files[id(sections)] = Indexed(sections)
+        return index
+
+    def _matching(self, sections: tuple[Section, ...], full: str | None) -> list[Section]:
+        index = self._index(sections)
         return index.everywhere() if full is None else index.matching(full)
 
 

@@ -17,7 +17,7 @@ from orchestra.resolve.model import FileParameters, NamedSchema, ResolvedCompone
 from orchestra.resolve.refusals import forget_surprise
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Iterable
 
     from orchestra.declared.model import Fault, FaultKind, ParameterSchema
     from orchestra.location import Location
@@ -69,12 +69,11 @@ def _line(problem: Problem) -> tuple[str, int]:
 
 def nodes_of(
     resolved: Resolved, plan: Plan
-) -> Iterator[tuple[ResolvedProcess | ResolvedComponent, Process | Component]]:
-    """Yield the nodes of a plan, each with what it was resolved to."""
-    for process, planned in zip(resolved.processes, plan.processes, strict=True):
-        if process.kind != "process":
-            yield process, planned
-    yield from zip(resolved.components, plan.components, strict=True)
+) -> list[tuple[ResolvedProcess | ResolvedComponent, Process | Component]]:
+    """Return the nodes of a plan, each with what it was resolved to."""
+    processes = zip(resolved.processes, plan.processes, strict=True)
+    components = zip(resolved.components, plan.components, strict=True)
+    return [*[pair for pair in processes if pair[0].kind != "process"], *components]
 
 
 class _Schemas:

@@ -27,7 +27,7 @@ def check_interfaces(resolved: Resolved, plan: Plan, problems: Problems) -> None
     # Here, because few packages declare interfaces, and for what it imports.
     from orchestra.plan.connections import check_connections  # noqa: PLC0415
 
-    nodes = list(nodes_of(resolved, plan))
+    nodes = nodes_of(resolved, plan)
     domains = domains_of(resolved)
     if domains is None:
         check_connections(nodes, problems)

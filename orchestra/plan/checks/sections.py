@@ -55,10 +55,13 @@ class _File:
 def check_sections(resolved: Resolved, plan: Plan, problems: Problems) -> None:
     """Report sections that miss their node, and files that have nothing for a node."""
     del plan
-    files = _files(resolved)
-    if not files:
+    nodes: list[_Node] = [*resolved.processes, *resolved.components]
+    given = [place for place, node in enumerate(nodes) if FileParameters in map(type, node.parameters)]
+    if not given:
         return
-    names = _Names((*full_names(resolved.processes), *map(node_name, resolved.components)))
+    full = [*full_names(resolved.processes), *map(node_name, resolved.components)]
+    files = _files([(nodes[place], full[place]) for place in given])
+    names = _Names(full)
     told: set[object] = set()
     for file in files:
         _check(file, names, resolved, problems, told)
@@ -103,15 +106,12 @@ class _Names:
         return below
 
 
-def _files(resolved: Resolved) -> list[_File]:
+def _files(nodes: Sequence[tuple[_Node, str | None]]) -> list[_File]:
     """Return the files with the nodes that each is given to; one for all nodes of a scope is a file of its own."""
-    nodes: list[_Node] = [item for item in resolved.processes if item.kind != "process"]
-    nodes += resolved.components
     files: dict[tuple[str, object], _File] = {}
-    for node in nodes:
-        if FileParameters not in map(type, node.parameters) or _hands_on(node):
+    for node, name in nodes:
+        if _hands_on(node):
             continue
-        name = node_name(node)
         for source in node.parameters:
             if type(source) is not FileParameters or not source.sections:
                 continue
