@@ -14,16 +14,7 @@ if TYPE_CHECKING:
 
 _FILE = "launch:\n- executable: {cmd: echo hello, name: greet}\n"
 # What the interpreter imports when it starts: somebody who wants to know of its end.
-_HOOK = """\
-import atexit, os, sys
-
-class Noisy:
-    def __del__(self):
-        os.write(2, b"taken apart\\n")
-
-sys.noisy = Noisy()
-atexit.register(lambda: print("last words"))
-"""
+_HOOK = 'import atexit\natexit.register(lambda: print("last words"))\n'
 
 
 def _ended(folder: Path, *words: str, python: tuple[str, ...] = ()) -> subprocess.CompletedProcess[str]:
@@ -53,7 +44,6 @@ def test_what_is_registered_for_the_end_is_called_and_its_words_are_written(
     assert ended.returncode == status
     assert ended.stdout.endswith("last words\n")
     assert ended.stdout.count("last words") == 1
-    assert "taken apart" not in ended.stderr
 
 
 def test_what_code_of_launch_files_registers_and_writes_by_the_c_library_is_not_lost(tmp_path: Path) -> None:
