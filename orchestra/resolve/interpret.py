@@ -16,6 +16,7 @@ from orchestra.resolve.impossible.contradictions import check_contradiction, hel
 from orchestra.resolve.impossible.late_settings import check_late_in_file
 from orchestra.resolve.mentions import hidden, words_in
 from orchestra.resolve.model import ResolvedSkip
+from orchestra.resolve.resolution import MOST_STEPS
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -84,7 +85,9 @@ def visit(actions: Iterable[Action], run: Resolution) -> None:
     run.depth += 1
     around = run.around
     for action in actions:
-        if not run.goes_on(action):
+        if run.steps < MOST_STEPS - 1:  # as `goes_on` counts
+            run.steps += 1
+        elif not run.goes_on(action):
             break
         if action.faults:
             _report_faults(action, run)

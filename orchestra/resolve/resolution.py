@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 LoadFile: TypeAlias = Callable[..., Description | None]
 Visit: TypeAlias = Callable[[Iterable[Action], "Resolution"], None]
 
-_MOST_STEPS = 200_000
+MOST_STEPS = 200_000
 # Each level of actions takes some ten calls of the thousand that the interpreter allows.
 _DEEP = 25
 
@@ -139,11 +139,11 @@ class Resolution:
     def goes_on(self, place: Action | Span) -> bool:
         """Count a step of the visit; false where there have been more than any description needs."""
         self.steps += 1
-        if self.steps == _MOST_STEPS:
-            message = f"the description comes to more than {_MOST_STEPS} actions"
+        if self.steps == MOST_STEPS:
+            message = f"the description comes to more than {MOST_STEPS} actions"
             span = place.span if isinstance(place, Action) else place
             self.problems.error(Code.INCLUDE_CYCLE, message, self.at(span))
-        return self.steps < _MOST_STEPS
+        return self.steps < MOST_STEPS
 
     @property
     def is_deep(self) -> bool:

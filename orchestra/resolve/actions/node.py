@@ -73,7 +73,7 @@ def start(action: Node, kind: Kind, run: Resolution, *, autostart: bool | Poison
         kind=kind,
         executable=executable.text if isinstance(executable, Value) else _started(action).raw,
         program=() if isinstance(words, Poison) else words,
-        location=run.place(action),
+        location=action.location(run.context.included_from),
         package=package.text if isinstance(package, Value) else None,
         name=None if isinstance(name, Poison) else name,
         namespace=None if isinstance(namespace, Poison) else namespace,
