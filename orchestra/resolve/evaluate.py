@@ -30,7 +30,9 @@ def evaluate(template: Template, context: Context) -> Evaluated:
     Every part is evaluated even where one is faulty, so that all faults are reported and all reads are seen.
     """
     if type(template) is MatchedTemplate:
-        return _matched(template, context)
+        if template.constant is None:
+            return performed(template, context)
+        return matched_value(template.constant, template, context.included_from)
     if not template.faulty:
         parts = template.parts
         if len(parts) == 1 and type(parts[0]) is Words:
@@ -96,11 +98,8 @@ def _concatenated(template: Template, context: Context) -> Evaluated:
     return new_value("".join(texts), context.place(template), through=tuple(reads), raw=template.raw)
 
 
-def _matched(template: MatchedTemplate, context: Context) -> Evaluated:
-    """Return what a text comes to, without the places of its calls where they have nothing to tell."""
-    text = template.constant
-    if text is not None:
-        return matched_value(text, template, context.included_from)
+def performed(template: MatchedTemplate, context: Context) -> Evaluated:
+    """Return what a text with calls comes to, without the places of these where they have nothing to tell."""
     known = plainly(template, context)
     if known is None:
         return _concatenated(template, context)

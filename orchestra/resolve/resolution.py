@@ -17,7 +17,7 @@ from orchestra.location import Location, Span, location_of
 from orchestra.nearest import nearest
 from orchestra.resolve.booleans import boolean
 from orchestra.resolve.context import POISON, Context, Evaluated, Packaged, Poison, Value
-from orchestra.resolve.evaluate import evaluate
+from orchestra.resolve.evaluate import evaluate, performed
 from orchestra.resolve.found import Found
 from orchestra.resolve.impossible.held import Held
 from orchestra.resolve.inputs import Inputs
@@ -177,9 +177,11 @@ class Resolution:
         """Evaluate a text in the current scope; None stays None."""
         if template is None:
             return None
-        if type(template) is MatchedTemplate and template.constant is not None:  # as `evaluate` does it
-            return matched_value(template.constant, template, self.context.included_from)
-        return evaluate(template, self.context)
+        if type(template) is not MatchedTemplate:
+            return evaluate(template, self.context)
+        if template.constant is None:
+            return performed(template, self.context)
+        return matched_value(template.constant, template, self.context.included_from)
 
     def text(self, template: Template | None) -> str | Poison | None:
         """Return what a text comes to."""
@@ -225,8 +227,6 @@ class Resolution:
 
     def integer(self, template: Template | None) -> int | Poison | None:
         """Return what a text comes to as a whole number; anything else is reported."""
-        if template is None:
-            return None
         value = self.evaluate(template)
         if value is None or isinstance(value, Poison):
             return value
