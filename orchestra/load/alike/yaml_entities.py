@@ -13,9 +13,12 @@ from orchestra.load.alike.making import template
 from orchestra.load.alike.straight import Kind, action_model, how, read_action
 from orchestra.load.alike.yaml_lines import (
     BARE,
+    BRACKETS,
     DASH,
     DEEPEST,
     DOUBLE_IN_PAIR,
+    FIRST,
+    FIRST_KEY,
     IN_DOUBLE,
     IN_SINGLE,
     INDENT,
@@ -24,8 +27,9 @@ from orchestra.load.alike.yaml_lines import (
     OPEN,
     PAIR,
     PLAIN_IN_PAIR,
+    SECOND,
+    SECOND_KEY,
     SINGLE_IN_PAIR,
-    TWO_PAIRS,
     Scan,
     lines_of,
 )
@@ -40,7 +44,6 @@ if TYPE_CHECKING:
     from orchestra.load.reader import Reader
 
 _CHILDREN: Final = "children"
-_FIRST, _SECOND = 2, 4  # the texts of two pairs
 _QUOTED: Final = frozenset({IN_DOUBLE, IN_SINGLE})
 
 
@@ -81,7 +84,7 @@ class _Entities(Scan):
                     found.append(self.entity(at, None, depth + 1, model))
                 continue
             self.line += 1
-            if line.lastindex != OPEN:
+            if line.lastindex not in BRACKETS:
                 raise UnlikeError
             if model is None:
                 found.append(read_action(self.opened(line, None), self.places, self.reader))
@@ -94,7 +97,7 @@ class _Entities(Scan):
         number = self.line
         line = self.lines[number]
         self.line = number + 1
-        _, _, key, double, single, plain, opening, _ = line.groups()
+        key, double, single, plain, opening = line.group(NAME, IN_DOUBLE, IN_SINGLE, BARE, OPEN)
         if key is None or double is not None or single is not None or plain is not None:
             raise UnlikeError
         self.words.append(key)
@@ -161,7 +164,7 @@ class _Entities(Scan):
             return way.read((line[BARE], number | BARE, False), self.places, self.reader)
         if last in (IN_DOUBLE, IN_SINGLE):
             return way.read(self.quoted(line, number, last), self.places, self.reader)
-        if last == OPEN:
+        if last in BRACKETS:
             return self.in_brackets(line, way, number | NAME)
         return self.below_key(way, number | NAME, column, depth)
 
@@ -194,19 +197,18 @@ class _Entities(Scan):
 
     def in_braces(self, line: re.Match[str], head: int, model: Model) -> Any:  # noqa: ANN401 - an entity
         """Return the entity that stands in braces behind a key, or behind a dash, up to the end of the line."""
-        begin = line.start(OPEN)
-        found = TWO_PAIRS.fullmatch(self.text, begin, line.end())
-        if found is not None:
-            key, text, other, also = found.groups()
+        if line.lastindex == SECOND:
+            key, text, other, also = line.group(FIRST_KEY, FIRST, SECOND_KEY, SECOND)
             name, last = model.texts.get(key), model.texts.get(other)
             if name is not None and last is not None and name != last:
                 self.words += ("{", key, other)
-                places, reader, number = self.places, self.reader, self.places.add(found)
+                places, reader, number = self.places, self.reader, self.line - 1 << GROUPS
                 made = {
-                    name: template(text, places, number | _FIRST, False, reader),
-                    last: template(also, places, number | _SECOND, False, reader),
+                    name: template(text, places, number | FIRST, False, reader),
+                    last: template(also, places, number | SECOND, False, reader),
                 }
                 return model.made(made, places, head)
+        begin = line.start(OPEN)
         if self.text[begin] != "{":
             raise UnlikeError
         self.words.append("{")

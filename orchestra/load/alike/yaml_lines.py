@@ -15,7 +15,6 @@ from orchestra.load.alike.learned import UnlikeError
 from orchestra.load.alike.straight import Keys, Series
 from orchestra.load.offsets import spans_of
 from orchestra.location import GROUPS, Places, stretch
-from orchestra.patterns import pattern
 
 if TYPE_CHECKING:
     from orchestra.load.alike.straight import Scalar
@@ -39,19 +38,23 @@ _DOUBLE: Final = r'''"((?:[ !#-\[\]-~]++|\\["\\])*+)"'''
 _SINGLE: Final = r"'((?:[ -&(-~]++|'')*+)'"
 _REST: Final = rf" *+(?:(?<![^ \n]){_COMMENT})?+(?:\n|\Z)"
 _VALUE: Final = rf"{_DOUBLE}|{_SINGLE}"
+# Two plain texts in braces, up to the end of the line: as most parameters, remaps and arguments stand.
+_TWO: Final = rf"(?<=\{{) *+({_KEY}): ++({_IN_FLOW}) *+, *+({_KEY}): ++({_IN_FLOW}) *+\}}(?= *+(?:\n|\#|\Z))"
 _LINE: Final = re.compile(
-    rf"( *+)(- ++)?+(?:({_KEY}):(?=[ \n]|\Z) *+)?+(?:{_VALUE}|({_PLAIN})|([\[{{])[^\n]*+)?+{_REST}|([^\n]*+\n?)"
+    rf"( *+)(- ++)?+(?:({_KEY}):(?=[ \n]|\Z) *+)?+"
+    rf"(?:{_VALUE}|({_PLAIN})|([\[{{])(?:{_TWO}|[^\n]*+))?+{_REST}|([^\n]*+\n?)"
 )
 _BEHIND: Final = re.compile(_REST)
 _ITEM: Final = re.compile(rf" *+(?:([\[{{])|(?:{_VALUE}|({_IN_FLOW})) *+([,\]}}]))")
 PAIR: Final = re.compile(rf" *+({_KEY}): ++(?:([\[{{])|(?:{_VALUE}|({_IN_FLOW})) *+([,\]}}]))")
-# Two plain texts in braces, up to the end of the line: as most parameters, remaps and arguments stand.
-TWO_PAIRS: Final = pattern(rf"\{{ *+({_KEY}): ++({_IN_FLOW}) *+, *+({_KEY}): ++({_IN_FLOW}) *+\}}{_REST}")
 _ESCAPED: Final = re.compile(r'\\(["\\])')
 _NEXT: Final = re.compile(r" *+([,\]}])")
 # The groups of a line.
 _last_group: Final = attrgetter("lastindex")
-INDENT, DASH, NAME, IN_DOUBLE, IN_SINGLE, BARE, OPEN, _ODD = range(1, 9)
+INDENT, DASH, NAME, IN_DOUBLE, IN_SINGLE, BARE, OPEN = range(1, 8)
+FIRST_KEY, FIRST, SECOND_KEY, SECOND, _ODD = range(8, 13)
+_SAID: Final = NAME, IN_DOUBLE, IN_SINGLE, BARE, OPEN
+BRACKETS: Final = frozenset({OPEN, SECOND})
 # Those of an item and of a pair in brackets.
 _DOUBLE_IN_ITEM, _SINGLE_IN_ITEM, _PLAIN_IN_ITEM = 2, 3, 4
 KEY_IN_PAIR, DOUBLE_IN_PAIR, SINGLE_IN_PAIR, PLAIN_IN_PAIR = 1, 3, 4, 5
@@ -83,7 +86,7 @@ class Scan:
         values: dict[str, Any] = {}
         lines, count, number = self.lines, self.count, self.line
         line = lines[number]
-        _, _, key, double, single, plain, opening, _ = line.groups()
+        key, double, single, plain, opening = line.group(*_SAID)
         if head is None:
             head = number << GROUPS | NAME
         words = self.words
@@ -108,7 +111,7 @@ class Scan:
             if number == count:
                 break
             line = lines[number]
-            indent, dash, key, double, single, plain, opening, _ = line.groups()
+            indent, dash, key, double, single, plain, opening = line.group(INDENT, DASH, *_SAID)
             if dash is None and len(indent) == column:
                 continue
             if len(indent) >= column:
@@ -151,7 +154,7 @@ class Scan:
                 items.append(self.keys(line.start(NAME) - line.start(), None, depth + 1))
                 continue
             self.line += 1
-            if line.lastindex == OPEN:
+            if line.lastindex in BRACKETS:
                 items.append(self.opened(line, None))
             else:
                 items.append(self.scalar(line, self.line - 1 << GROUPS, line.lastindex == BARE))
