@@ -2,6 +2,7 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -25,6 +26,23 @@ def test_the_run_directory_takes_the_place_of_its_symbol() -> None:
     assert real.command == ("x", "--file", "/r/params/a.yaml")
     assert (real.arguments, real.environment, real.cwd) == (("/r/b",), {"A": "/r", "B": None}, "/r")
     assert real.parameters == {"map": "/r/map", "maps": ("/r/a", "b"), "rate": 2.0, "ids": (1, 2)}
+
+
+@pytest.mark.parametrize(
+    ("named", "real"),
+    [
+        ({"command": ("x", "a${run}")}, {"command": ("x", "a/r")}),
+        ({"arguments": ("${run}",)}, {"arguments": ("/r",)}),
+        ({"cwd": "${run}"}, {"cwd": "/r"}),
+        ({"environment": {"A": None, "B": "'${run}'"}}, {"environment": {"A": None, "B": "'/r'"}}),
+        ({"parameters": {"a": "'\"${run}\n"}}, {"parameters": {"a": "'\"/r\n"}}),
+        ({"parameters": {"a": ("b", "${run}")}}, {"parameters": {"a": ("b", "/r")}}),
+        ({}, {}),
+    ],
+    ids=str,
+)
+def test_it_is_found_in_one_place_alone(named: dict[str, Any], real: dict[str, Any]) -> None:
+    assert located(process("a", **named), "/r") == process("a", **real)
 
 
 def test_a_shell_gets_its_words_as_one_line() -> None:

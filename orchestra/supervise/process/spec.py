@@ -42,6 +42,8 @@ class Spec:
 
 def located(process: Process, folder: str) -> Process:
     """Return the process with `${run}` replaced by the run directory in all that it is told."""
+    if not _names_the_run(process):
+        return process
 
     def fill(text: str) -> str:
         return text.replace(RUN_FOLDER, folder)
@@ -56,6 +58,11 @@ def located(process: Process, folder: str) -> Process:
         arguments=tuple(fill(word) for word in process.arguments),
         parameters=filled(process.parameters, folder),
     )
+
+
+def _names_the_run(process: Process) -> bool:
+    words = (*process.command, *process.arguments, process.cwd or "", *process.environment.values())
+    return RUN_FOLDER in "\0".join(filter(None, words)) or RUN_FOLDER in str(process.parameters)
 
 
 def filled(values: Mapping[str, ParameterValue], folder: str) -> dict[str, ParameterValue]:

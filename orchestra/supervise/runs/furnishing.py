@@ -19,6 +19,8 @@ def furnish(records: Records, folder: str) -> Records:
     """Write the parameter files; return the plan, or the part of one, with `${run}` filled in. Raises `OSError`."""
     processes = tuple(located(process, folder) for process in records.processes)
     for planned, process in zip(records.processes, processes, strict=True):
+        if not (planned.parameters or planned.parameter_files):
+            continue
         # Files are known by what the command of the plan calls them.
         for path, text in contents(replace(process, command=planned.command)).items():
             with open(path.replace(RUN_FOLDER, folder), "w", encoding="utf-8") as file:  # noqa: PTH123 - may be any path
