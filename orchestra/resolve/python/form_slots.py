@@ -1,9 +1,10 @@
 """Where literals stand in the text of a Python file that decide nothing of its code but constants, and names nothing.
 
 Such a literal is a whole element of a call, a list, a tuple or a dictionary, or all that a statement assigns, in a
-statement that makes, calls, goes through or returns things and does nothing else: no operator is applied to it, so that
-the compiler works nothing out with it, and whether it is true decides no jump. Such a name ends with a number, is that
-of a variable of a function, which nothing else is called (`node_12`), and all statements of its file are like that.
+statement that makes, calls, goes through or returns things and does nothing else. No operator is applied to it but +
+with what has a name, so that the compiler works nothing out with it, and whether it is true decides no jump. Such a
+name ends with a number, is that of a variable of a function, which nothing else is called (`node_12`), and all
+statements of its file are like that.
 
 All of this is told by the text in which each literal is as short as it can be; what stands in quotes says nothing.
 """
@@ -37,9 +38,10 @@ _OF_BRACES: Final = "fF"
 _FLAT: Final = pattern(r"""(["'])(?:""|'')?(?:[^{}'"\\]|\{[^{}'"\\]*\})*["']+""")
 # Without literals and blanks: signs of plain statements, of numbers and of what a function returns, and what is not
 # plain of that.
-_PLAIN: Final = b'()[]{},:=."_0123456789abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ'
+_PLAIN: Final = b'()[]{},:=.+"_0123456789abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ'
 _SIGNED: Final = tuple(f"{before}-0" for before in "([{,=:")
-_NOT_PLAIN: Final = ("==", ":=", ")[", "][", "}[", '"[')
+_NOT_PLAIN: Final = ("==", ":=", "+=", ")[", "][", "}[", '"[')
+_PLUS: Final = pattern(r"\+")
 _IN_BRACES: Final = '@""'  # for a text in braces, which is not plain
 _ENDING: Final = pattern(r"[()\[\]{}\n]")
 _KEYWORDS: Final = frozenset(kwlist) - {
@@ -95,7 +97,7 @@ class Slots:
             raise ValueError("there is what is not looked into")
         is_plain = _is_plain(self._text)
         self._kept = [] if is_plain else list(_kept(self._text))
-        self.is_plain = is_plain and "for" not in words
+        self.is_plain = is_plain and "for" not in words and "+" not in self._text
 
     def at(self, indices: Iterable[int]) -> tuple[dict[int, str | None], set[Any]]:
         """Return what stands before each of some literals of the same name, None for comments; and values of others.
@@ -129,14 +131,17 @@ class Slots:
         before = self._text[max(place - _FAR, 0) : place].rstrip()
         rest = self._text[place + (2 if is_text else 1) : place + _FAR].lstrip(" \t")
         last, behind = before[-1:], rest.lstrip()[:1]
+        if last == "+" and _ends_with_name(before[:-1]):
+            last = "="
+        if behind == "+" and _begins_with_name(rest.lstrip()[1:]):
+            behind = ","
         if last == "=" and rest[:1] == "\n":  # of a statement, or a call that goes on
             return True
         if last not in _BEFORE or behind not in _BEHIND or not (last and behind):
             return False
         if last not in "([":
             return True
-        word = _NAME.search(before, 0, len(before) - 1)
-        is_named = word is not None and not iskeyword(word[0])
+        is_named = _ends_with_name(before[:-1])
         if last == "[":
             return is_text or not is_named
         return is_named or behind != ")"
@@ -183,8 +188,27 @@ def _is_plain(text: str) -> bool:
             bare = bare.replace(signed, signed[0])
     if bare.encode().translate(None, _PLAIN) or any(sign in bare for sign in _NOT_PLAIN):
         return False
+    if not all(_has_name_beside(text, sign.start()) for sign in _PLUS.finditer(text)):
+        return False
     words = _WORD.findall(text)
     return _KEYWORDS.isdisjoint(words) and words.count("for") == words.count("in")
+
+
+def _has_name_beside(text: str, place: int) -> bool:
+    """Return whether what is added at a place is no constant on one side, as a name there tells."""
+    return _ends_with_name(text[max(place - _FAR, 0) : place]) or _begins_with_name(
+        text[place + 1 : place + _FAR]
+    )
+
+
+def _ends_with_name(text: str) -> bool:
+    word = _NAME.search(text.rstrip())
+    return word is not None and not iskeyword(word[0])
+
+
+def _begins_with_name(text: str) -> bool:
+    word = _WORD.match(text.lstrip())
+    return word is not None and not iskeyword(word[0])
 
 
 def _kept(text: str) -> Iterator[tuple[int, int]]:

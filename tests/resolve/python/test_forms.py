@@ -132,6 +132,15 @@ _LITERAL = "call({})\n".format(", ".join(f"'{letter}'" for letter in "abcdefghij
         ("def f():\n    'told'\n    return ['told', 2]\n", "def f():\n    'told'\n    return ['other', 2]\n"),
         ('x = f"{y("p")}", "p"\n', 'x = f"{y("q")}", "p"\n'),
         ("x = f'{y}p', ['p']\n", "x = f'{y}p', ['q']\n"),
+        ("x = y + 2 + 3, 5\n", "x = y + 4 + 7, 11\n"),
+        ("x = 2 + 3 + y, 5\n", "x = 2 + 4 + y, 6\n"),
+        ("x = y, +2, 2\n", "x = y, +3, 2\n"),
+        ("x = ('p', 'q') + ('r',), 'p'\n", "x = ('s', 'q') + ('t',), 'p'\n"),
+        ("x = y + ('p', 'q') + ('r',)\n", "x = y + ('s', 'q') + ('t',)\n"),
+        ("x = 'p' + y + 'q' + 'r', 2 + y\n", "x = 'p1' + y + 'q2' + 'r', 3 + y\n"),
+        ("def f(y):\n    return + 2, y + 2\n", "def f(y):\n    return + 3, y + 4\n"),
+        ("for y in + 2, 2:\n    x = 1 + y\n", "for y in + 3, 2:\n    x = 2 + y\n"),
+        ("x = 2 + True, 3\n", "x = 4 + True, 3\n"),
         ("x: 'int' = ['p']\n", "x: 'str' = ['p']\n"),
         ("x = ['''p''', 'q']\n", "x = ['''p\\\n''', 'q']\n"),
         ("x = [r'p', b'q', 'q']\n", "x = [r'q', b'p', 'q']\n"),
@@ -204,7 +213,7 @@ def _is_plain(parts: list[str]) -> bool:
     "text",
     [
         "x = f'{a}'", "x = b'a'", "if x:\n    pass", "x = [lambda: 3]", "x = [i for i in 'a']", "x = not y",
-        "x = (a := 3)", "x = a == 3", "x = a + 'b'", "x = 3 - 2", "x = a -2", "x = call(*y)", "x = ('a', 'b')[1]",
+        "x = (a := 3)", "x = a == 3", "x = 3 - 2", "x = a -2", "x = call(*y)", "x = ('a', 'b')[1]",
         "x = 'a'[1]", "x = a[1][2]", "@d\ndef f(): pass", "class C: pass", "match x:\n    case 1: pass", "x = 'a' if y else 'b'",
         "x = call() \\\n    .other()", "global x", "async def f(): pass", "x = {*y}", "x = 'a' % y",
     ],
@@ -229,7 +238,10 @@ def generate_launch_description(*names):
         Node(package='package', name=name, rate=@2@, parameters=[{'use_sim_time': True, 'frame': '@1@'}])
         for name in ['@1@_left', '@1@_right', 'middle']
     ]
+    first = @3@ + len(names)
     for number in range(@2@, @3@):
+        last = @2@ + number
+        words = '@1@_' + str(last), number + @3@
         nodes.append(Node(name=f'node{number}', rate=number + 0.5))
         if number % 2 == 0:
             nodes.append(Node(name='even', args=['%d' % number, -1]))
