@@ -7,6 +7,7 @@ rcl's rules hold, all wildcards included, of which upstream knows but one.
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING
 
 from orchestra.errors import Code, Severity
@@ -14,11 +15,11 @@ from orchestra.nearest import nearest
 from orchestra.plan import candidates
 from orchestra.plan.absent import is_mistake
 from orchestra.plan.ids import base_identity, node_name
-from orchestra.plan.model import Candidate, Component, Provenance
+from orchestra.plan.model import Candidate, Component, Provenance, new_component
 from orchestra.plan.parameters import settings_of
 from orchestra.plan.provenance import naming, remapping_values
 from orchestra.plan.remappings import check_remaps
-from orchestra.resolve.model import InlineParameter
+from orchestra.resolve.model import FileParameters, InlineParameter
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
@@ -35,8 +36,6 @@ def components(
     resolved: Resolved, ids: Sequence[str], own: Sequence[str], sections: Sections, problems: Problems
 ) -> tuple[Component, ...]:
     """Return the components in order; `ids` are those of the processes, `own` those of the components."""
-    if not resolved.components:
-        return ()
     if not resolved.components:
         return ()
     containers = _Containers(resolved)
@@ -83,10 +82,8 @@ def _component(
 ) -> Component:
     full = node_name(component)
     check_remaps(component, problems)
-    written = _candidates(
-        component.parameters, full, sections, settings_of(sections.given_to(component), full)
-    )
-    return Component(
+    overrides = settings_of(sections.given_to(component), full)
+    return new_component(
         id=identity,
         name=component.name.text if component.name is not None else None,
         namespace=component.namespace.text if component.namespace is not None else None,
@@ -95,21 +92,31 @@ def _component(
         container=container,
         process=process,
         condition="event" if component.delayed else "started",
-        parameters=_values(written),
+        parameters=_values(component.parameters, full, sections, overrides),
         remappings=tuple((rule.source.text, rule.target.text) for rule in component.remaps),
-        extra_arguments=_values(_candidates(component.extra_arguments, full, sections, {})),
+        extra_arguments=_values(component.extra_arguments, full, sections, {}),
         lifecycle="active" if component.autostart else None,
         location=component.location,
-        provenance=Provenance(
-            name=component.name.location if component.name is not None else None,
-            namespace=component.namespace.location if component.namespace is not None else None,
-            parameters=written,
-            remappings=tuple(rule.source.location for rule in component.remaps),
-            naming=naming(component),
-            remapping_values=remapping_values(component),
-            params_schema=None if component.params_schema is None else component.params_schema.location,
-        ),
+        provenance=partial(_provenance, component, full, sections, overrides),  # type: ignore[arg-type]  # made when asked for
         params_schema=None if component.params_schema is None else component.params_schema.text,
+    )
+
+
+def _provenance(
+    component: ResolvedComponent,
+    full: str | None,
+    sections: Sections,
+    overrides: Mapping[str, Setting],
+    _: Component,
+) -> Provenance:
+    return Provenance(
+        name=component.name.location if component.name is not None else None,
+        namespace=component.namespace.location if component.namespace is not None else None,
+        parameters=_candidates(component.parameters, full, sections, overrides),
+        remappings=tuple(rule.source.location for rule in component.remaps),
+        naming=naming(component),
+        remapping_values=remapping_values(component),
+        params_schema=None if component.params_schema is None else component.params_schema.location,
     )
 
 
@@ -201,5 +208,15 @@ def _entries(
             yield name, item.value, item.location
 
 
-def _values(found: dict[str, tuple[Candidate, ...]]) -> dict[str, ParameterValue]:
+def _values(
+    sources: Sequence[ParameterSource],
+    full: str | None,
+    sections: Sections,
+    overrides: Mapping[str, Setting],
+) -> dict[str, ParameterValue]:
+    """Return what counts; where there are nothing but values, without their places."""
+    if not overrides and FileParameters not in map(type, sources):
+        last = {source.name: source.value for source in sources if isinstance(source, InlineParameter)}
+        return {name: value for name, value in last.items() if value is not None}
+    found = _candidates(sources, full, sections, overrides)
     return {name: written[-1].value for name, written in found.items() if written[-1].value is not None}

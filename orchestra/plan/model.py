@@ -237,11 +237,13 @@ def _postponed(record: type, name: str) -> None:
 # What a run asks for, and hardly anybody who only looks at a plan; where something was written, most ask neither.
 _postponed(Process, "digest")
 _postponed(Process, "provenance")
+_postponed(Component, "provenance")
 _postponed(ParameterFile, "content")
 
 
 # What a plan has many of.
 new_process = maker(Process)
+new_component = maker(Component)
 new_file = maker(ParameterFile)
 new_candidate = maker(Candidate)
 new_via = maker(Via)
