@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from collections.abc import Collection
 
     from orchestra.description.actions.arg import Arg
-    from orchestra.location import Location, Span
+    from orchestra.location import Location
     from orchestra.resolve.resolution import Resolution
 
 
@@ -32,8 +32,11 @@ def declare(action: Arg, name: str, choices: Collection[str] | None, run: Resolu
     variable = run.scope.variables.get(name)
     if variable is None or action.default is None:
         return
-    before, here = variable.settled, run.at(action.name.span)
-    if before is None or before.span.file != here.span.file or before.included_from != here.included_from:
+    before = variable.settled
+    if before is None:
+        return
+    here = run.place(action.name)
+    if before.span.file != here.span.file or before.included_from != here.included_from:
         return
     if (
         (is_python(here) and not _is_written_twice(here, name))
@@ -59,10 +62,10 @@ def _is_written_twice(here: Location, name: str) -> bool:
     return is_declared_twice(os.path.abspath(here.span.file), name)  # noqa: PTH100 - no link is followed
 
 
-def settle(name: str, at: Span, run: Resolution) -> None:
+def settle(name: str, at: Location, run: Resolution) -> None:
     """Note that a variable has a value from here on in this file, unless a condition stands on that."""
     if run.occasion is None and run.conditions + run.repetitions == run.frame.choices:
-        run.scope.settle(name, run.at(at))
+        run.scope.settle(name, at)
 
 
 def check_twice(

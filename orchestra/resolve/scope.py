@@ -222,9 +222,11 @@ class Scope:
 
         Where its variables are `wanted`, only a namespace that is left behind is a surprise.
         """
-        for table, name, earlier in self._earliest(mark):
-            variable = table.get(name)
-            if not isinstance(variable, Variable) or variable.leaked_from is not None:
+        changes = reversed(self._journal[mark:])  # of each name the earliest counts, which comes last
+        earliest = {name: earlier for table, name, earlier in changes if table is self.variables}
+        for name, earlier in earliest.items():
+            variable = self.variables.get(name)
+            if variable is None or variable.leaked_from is not None:
                 continue
             if not isinstance(variable.value, Value) or (wanted and name != NAMESPACE):
                 continue

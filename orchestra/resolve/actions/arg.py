@@ -15,6 +15,7 @@ from orchestra.resolve.refusals import refuse_value, report_unset_environment
 
 if TYPE_CHECKING:
     from orchestra.description.actions.arg import Arg
+    from orchestra.location import Location
     from orchestra.resolve.resolution import Resolution
 
 
@@ -24,26 +25,26 @@ def visit(action: Arg, run: Resolution) -> None:
     run.scope.ledger.declared.add(name)
     run.found.choices.setdefault(name, set()).add(choices)
     declare(action, name, choices, run)
-    value = _value(action, name, run)
+    value = _value(action, name, at, run)
     _check_default(action, value, choices, run)
     if isinstance(value, Value) and choices is not None and value.text not in choices:
         if not _is_left_open(action, name, value, run):
             _refuse(name, value, choices, run)
         run.scope.set(name, POISON, at)
-    settle(name, action.span, run)
-    _record(action, name, value, choices, run)
+    settle(name, at, run)
+    _record(action, name, value, choices, at, run)
 
 
-def _value(action: Arg, name: str, run: Resolution) -> Evaluated:
+def _value(action: Arg, name: str, at: Location, run: Resolution) -> Evaluated:
     """Return the value of the argument; one that an include has left behind is a surprise unless it is the default."""
     variable = run.scope.variables.get(name)
     if variable is not None and variable.leaked_from is None:
         return variable.value
     run.scope.ledger.defaulted.add(name)
     if variable is not None and not _is_default(action, variable.value, run):
-        return run.scope.get(name, run.at(action.span)) or POISON  # warns
+        return run.scope.get(name, at) or POISON  # warns
     value = _default(action, name, run)
-    run.scope.set(name, value, run.place(action), "default")
+    run.scope.set(name, value, at, "default")
     return value
 
 
@@ -96,12 +97,17 @@ def _default(action: Arg, name: str, run: Resolution) -> Evaluated:
 
 
 def _record(
-    action: Arg, name: str, value: Evaluated | None, choices: tuple[str, ...] | None, run: Resolution
+    action: Arg,
+    name: str,
+    value: Evaluated | None,
+    choices: tuple[str, ...] | None,
+    at: Location,
+    run: Resolution,
 ) -> None:
     default = action.default.raw if action.default is not None else None
     text = value.text if isinstance(value, Value) else None
     description = _text(action.description) if action.description is not None else None
-    given, at = name in run.frame.given, run.place(action)
+    given = name in run.frame.given
     known = run.found.arguments.get(name)
     if given and run.frame.private:
         return

@@ -17,12 +17,12 @@ def visit(action: Let, run: Resolution) -> None:
     """Set a variable."""
     name, value = run.evaluate(action.name), run.evaluate(action.value)
     if isinstance(name, Value) and value is not None:
-        ledger = run.scope.ledger
-        if name.text in ledger.declared and name.text not in ledger.read and not is_python(name.location):
+        ledger, at = run.scope.ledger, name.location
+        if name.text in ledger.declared and name.text not in ledger.read and not is_python(at):
             from orchestra.resolve.impossible.overwritten import check_overwritten  # noqa: PLC0415 - hardly ever
 
             check_overwritten(action, name, run)
         run.scope.set(name.text, value, run.place(action.value))
-        settle(name.text, action.span, run)
-        if name.verbatim and not is_python(name.location):
-            run.found.lets.setdefault(name.text, name.location)
+        settle(name.text, run.place(action), run)
+        if name.verbatim and not is_python(at):
+            run.found.lets.setdefault(name.text, at)
