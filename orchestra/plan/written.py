@@ -66,6 +66,7 @@ class Places:
     def __init__(self, resolved: Resolved) -> None:
         self._given: _Index = {}
         self._files: dict[int, tuple[object, _Index]] = {}
+        self._asked: object = None  # the node that was asked for last
         self._node: object = None
         self._indexes: list[_Index] = []
         for given in resolved.given:
@@ -75,7 +76,9 @@ class Places:
         self, name: str, node: ResolvedProcess | ResolvedComponent, planned: Process | Component
     ) -> Written:
         """Return where the value of a parameter that counts is written; of a group, one that is in it."""
-        alone = None if self._given else _alone(name, node)
+        # Who asks for one value of a node may do without an index; for the next ones it is made.
+        alone = None if self._given or node is self._asked else _alone(name, node)
+        self._asked = node
         if alone is not None:
             return Written(alone.location, alone.items, alone.keys)
         candidates = planned.provenance.parameters
