@@ -34,16 +34,16 @@ else:
 
     def replace(record: Any, /, **changes: Any) -> Any:
         """Return an object like another one, with other values for some fields."""
-        cls = record.__class__
-        known = _TAKEN.get(cls)
-        if known is None:
-            names = [item.name for item in cls.__record_fields__ if item.init]
-            known = _TAKEN[cls] = names, values_of(names)
-        return cls(**{**dict(zip(known[0], known[1](record), strict=True)), **changes})
+        key = record.__class__, *changes
+        known = _TAKEN.get(key)
+        if known is None:  # what is changed is not asked for: it may be worked out when it is
+            names = [item.name for item in record.__record_fields__ if item.init and item.name not in changes]
+            known = _TAKEN[key] = names, values_of(names)
+        return key[0](**dict(zip(known[0], known[1](record), strict=True)), **changes)
 
 
-# What a class is made from, with what gives that of an object.
-_TAKEN: dict[type, tuple[list[str], Callable[[Any], tuple[Any, ...]]]] = {}
+# By class and what is changed: what else a class is made from, with what gives that of an object.
+_TAKEN: dict[tuple[Any, ...], tuple[list[str], Callable[[Any], tuple[Any, ...]]]] = {}
 UNWRITTEN = type("Unwritten", (), {})()
 _OPTIONS = ("init", "repr", "hash", "compare", "kw_only")
 

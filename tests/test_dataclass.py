@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 import pytest
 
 from orchestra.dataclass import dataclass, maker
+from orchestra.fields import replace
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -241,6 +242,18 @@ def test_the_first_are_made_as_the_later_ones(
     )
     told = [_told(lambda: fresh(*words, **named)) for _ in range(6)]
     assert len(set(told)) == 1
+
+
+def test_what_is_replaced_is_not_asked_for() -> None:
+    """It may be worked out only when somebody does."""
+    halfway = object.__new__(Ordered)
+    first, *others = dataclasses.fields(Ordered)
+    for item in others:
+        object.__setattr__(halfway, item.name, 2)
+    replaced = replace(halfway, **{first.name: 1})
+    assert [getattr(replaced, item.name) for item in (first, *others)] == [1, *[2] * len(others)]
+    with pytest.raises(AttributeError):
+        replace(halfway)
 
 
 def _has_default(item: Any) -> bool:
