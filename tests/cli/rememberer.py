@@ -2,7 +2,7 @@
 
 A question has `do` (`make` or `recall`), `words`, `folder` and `environment`. Each is answered by a fork of this
 process, which has imported everything. The answer has the `document` (null where nothing is remembered), what was
-`told`, and whether the plan was `kept`.
+`told`, whether the plan was `kept`, and `why` it could not be.
 """
 
 from __future__ import annotations
@@ -21,6 +21,7 @@ import orchestra.pipeline  # noqa: F401
 from orchestra.cli.main import prepare
 from orchestra.cli.remembered import remembered
 from orchestra.supervise.resolver.serving import Settled
+from orchestra.witness.observing import observer
 
 
 def main() -> None:
@@ -57,8 +58,13 @@ def _answer(question: dict[str, Any]) -> dict[str, Any]:
         sys.stderr = before
     if isinstance(result, Settled):
         result.afterwards()
-    kept = isinstance(result, Settled)
-    return {"document": stream.getvalue().decode() or None, "told": told.getvalue(), "kept": kept}
+    record = observer().record
+    return {
+        "document": stream.getvalue().decode() or None,
+        "told": told.getvalue(),
+        "kept": isinstance(result, Settled),
+        "why": None if record is None else record.unknown,
+    }
 
 
 if __name__ == "__main__":

@@ -107,7 +107,9 @@ class Rememberer:
 
     def make(self, *words: str) -> Any:
         """Make a plan as a launch does, and keep it where that can be."""
-        return self._ask("make", words or ("main.launch.yaml",))
+        answer = self._ask("make", words or ("main.launch.yaml",))
+        sys.stderr.write(f"not kept: {answer['why']}\n")  # seen where a test fails
+        return answer
 
     def recall(self, *words: str) -> str | None:
         """Return the document that is remembered."""
