@@ -108,7 +108,9 @@ class Rememberer:
     def make(self, *words: str) -> Any:
         """Make a plan as a launch does, and keep it where that can be."""
         answer = self._ask("make", words or ("main.launch.yaml",))
-        sys.stderr.write(f"kept: {answer['kept']}, {answer['why']}\n{answer['told']}")  # seen where a test fails
+        sys.stderr.write(
+            f"kept: {answer['kept']}, {answer['why']}\n{answer['told']}"
+        )  # seen where a test fails
         return answer
 
     def recall(self, *words: str) -> str | None:
