@@ -21,10 +21,12 @@ def _ended(folder: Path, *words: str, python: tuple[str, ...] = ()) -> subproces
     (folder / "sitecustomize.py").write_text(_HOOK)
     (folder / "main.launch.yaml").write_text(_FILE)
     paths = [str(folder), *filter(None, [os.environ.get("PYTHONPATH")])]
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(paths)}
+    environment.pop("PYTHONUNBUFFERED", None)  # which the C library obeys, too
     return subprocess.run(
         [sys.executable, *python, "-m", "orchestra", *words],
         cwd=folder,
-        env={**os.environ, "PYTHONPATH": os.pathsep.join(paths)},
+        env=environment,
         capture_output=True,
         text=True,
         timeout=90,

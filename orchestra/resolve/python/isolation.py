@@ -66,6 +66,7 @@ class Isolation:
             if self._before is None:
                 self._before = Libraries(), Interpreter()
                 self._lasting.enter_context(orphans_kept())
+                self._lasting.callback(_write_out)
             for state in self._before:
                 enter(state.kept())
             enter(temporary_files(self.files))
@@ -130,6 +131,14 @@ def _programs_redirected() -> Iterator[None]:
             os.dup2(2, 1)
             restoring.callback(os.dup2, kept, 1)
         yield
+
+
+def _write_out() -> None:
+    """Have what code has told the C library written, while it goes where other words of code go."""
+    import ctypes  # noqa: PLC0415 - slow, and not needed before code has run
+
+    with observer().aside():
+        ctypes.CDLL(None).fflush(None)
 
 
 def _put_zone(before: tuple[str, str]) -> None:
