@@ -208,6 +208,13 @@ def _own_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(tempfile, "tempdir", str(folder))
 
 
+@pytest.fixture(scope="module", autouse=True)
+def _everything_is_imported(tmp_path_factory: pytest.TempPathFactory) -> None:
+    """What such files need is there before code takes the finders away, whichever test comes first."""
+    for where in _PLACES:
+        _resolve(_write(tmp_path_factory.mktemp("plain"), "import sys; sys.flags", where))
+
+
 @pytest.mark.usefixtures("_own_folder")
 @pytest.mark.parametrize("where", _PLACES)
 @pytest.mark.parametrize("what", CHANGES)
