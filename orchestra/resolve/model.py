@@ -170,9 +170,6 @@ class EnvironmentChange:
     through: tuple[Read, ...] = field(default=(), compare=False, repr=False)
 
 
-new_change = maker(EnvironmentChange)
-
-
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ResolvedProcess:
     """One process. `program` starts it; a node's arguments and ROS arguments are added by the plan.
