@@ -4,17 +4,18 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Final
 
+from benchmarks import levels
+
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
+    from collections.abc import Callable, Iterable, Sequence
     from pathlib import Path
 
-# So many nodes in a file, and so many files included by one.
+# So many nodes in a file.
 _NODES: Final = 20
-_FILES: Final = 10
 # Given to files that include others, and handed on.
 _NOBODY: Final = "robot"
 
-_YAML_NODE: Final = """\
+YAML_NODE: Final = """\
   - node:
       pkg: benchmark_widget
       exec: widget
@@ -81,19 +82,15 @@ def write(folder: Path, language: str, nodes: int) -> Path:
             whole((node.format(n=n) for n in range(number, min(nodes, number + _NODES))), argument=True)
         )
         level.append((path.name, f"robot{number}"))
-    height = 0
-    while height == 0 or len(level) > 1:
-        height += 1
-        level = [
-            _include(
-                folder / f"part{height}_{begin}.launch.{language}",
-                level[begin : begin + _FILES],
-                whole,
-                include,
-            )
-            for begin in range(0, len(level), _FILES)
-        ]
-    return folder / level[0][0]
+
+    def including(name: str, files: Sequence[levels.File]) -> levels.File:
+        path = folder / f"{name}.launch.{language}"
+        path.write_text(
+            whole((include.format(file=file, robot=robot) for file, robot in files), argument=False)
+        )
+        return path.name, _NOBODY
+
+    return folder / levels.top(level, including)
 
 
 def write_package(folder: Path) -> None:
@@ -102,13 +99,6 @@ def write_package(folder: Path) -> None:
     package.mkdir(parents=True, exist_ok=True)
     for path in (package.parent / "__init__.py", package / "__init__.py", package / "widget.py"):
         path.touch()
-
-
-def _include(
-    path: Path, files: Iterable[tuple[str, str]], whole: Callable[..., str], include: str
-) -> tuple[str, str]:
-    path.write_text(whole((include.format(file=name, robot=robot) for name, robot in files), argument=False))
-    return path.name, _NOBODY
 
 
 def _yaml(actions: Iterable[str], *, argument: bool) -> str:
@@ -127,7 +117,7 @@ def _python(actions: Iterable[str], *, argument: bool) -> str:
 _LANGUAGES: Final[dict[str, tuple[Callable[..., str], str, str]]] = {
     "yaml": (
         _yaml,
-        _YAML_NODE,
+        YAML_NODE,
         "  - include: {{file: $(dirname)/{file}, arg: [{{name: robot, value: '{robot}'}}]}}\n",
     ),
     "xml": (

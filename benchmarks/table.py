@@ -17,6 +17,7 @@ MEASUREMENTS: Final = (
     "twenty_nodes",
     "restarted_node",
     "plans",
+    "plan_shapes",
     "short_processes",
     "up_and_down",
     "output",

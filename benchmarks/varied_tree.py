@@ -5,15 +5,14 @@ from __future__ import annotations
 from random import Random
 from typing import TYPE_CHECKING, Final
 
-from benchmarks import node_tree
+from benchmarks import levels, node_tree
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Sequence
     from pathlib import Path
 
-# So many nodes in a file, files included by one, and nodes of a group.
+# So many nodes in a file, and of a group.
 _NODES: Final = 20
-_FILES: Final = 10
 _TOGETHER: Final = 3
 
 _ARGUMENTS: Final = """\
@@ -80,22 +79,16 @@ def write(folder: Path, nodes: int) -> Path:
         file = f"robot{first}.launch.yaml"
         (folder / file).write_text(_ARGUMENTS + "".join(_actions(numbers, rnd)))
         level.append((file, f"robot{first}"))
-    height = 0
-    while height == 0 or len(level) > 1:
-        height += 1
-        level = [
-            _including(folder / f"part{height}_{begin}.launch.yaml", level[begin : begin + _FILES])
-            for begin in range(0, len(level), _FILES)
+
+    def including(name: str, files: Sequence[levels.File]) -> levels.File:
+        path = folder / f"{name}.launch.yaml"
+        includes = [
+            _INCLUDES[number % 2].format(file=file, robot=robot) for number, (file, robot) in enumerate(files)
         ]
-    return folder / level[0][0]
+        path.write_text("".join(["launch:\n", *includes]))
+        return path.name, name
 
-
-def _including(path: Path, files: list[tuple[str, str]]) -> tuple[str, str]:
-    includes = [
-        _INCLUDES[number % 2].format(file=file, robot=robot) for number, (file, robot) in enumerate(files)
-    ]
-    path.write_text("".join(["launch:\n", *includes]))
-    return path.name, path.name.partition(".")[0]
+    return folder / levels.top(level, including)
 
 
 def _actions(numbers: range, rnd: Random) -> Iterable[str]:

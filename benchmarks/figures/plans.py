@@ -12,28 +12,28 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
     from pathlib import Path
 
-_SIZES = (100, 300, 1000)
-_COMPOSE = "composing the same bytes with PyYAML's C parser"
+SIZES = (100, 300, 1000)
+COMPOSE = "composing the same bytes with PyYAML's C parser"
 _WHOLE = "an interpreter that composes the same bytes so"
 _YAML = "the same nodes in YAML"
 FIGURES = (
-    Figure("plan-yaml", "plan of 1,000 nodes in YAML", _COMPOSE, "ratio", 3.0, "s", 1000, _SIZES, 20),
-    Figure("plan-mixed", "the same, of many kinds", _COMPOSE, "ratio", 3.0, "s", 1000, _SIZES, 20),
-    Figure("plan-xml", "the same in XML", _YAML, "ratio", 1.0, "s", 1000, _SIZES, 20),
-    Figure("plan-python", "the same in Python", _YAML, "ratio", 1.0, "s", 1000, _SIZES, 20),
-    Figure("plan-compiled", "the same in Python, planned before", _YAML, "ratio", 1.0, "s", 1000, _SIZES, 20),
+    Figure("plan-yaml", "plan of 1,000 nodes in YAML", COMPOSE, "ratio", 3.0, "s", 1000, SIZES, 20),
+    Figure("plan-mixed", "the same, of many kinds", COMPOSE, "ratio", 3.0, "s", 1000, SIZES, 20),
+    Figure("plan-xml", "the same in XML", _YAML, "ratio", 1.0, "s", 1000, SIZES, 20),
+    Figure("plan-python", "the same in Python", _YAML, "ratio", 1.0, "s", 1000, SIZES, 20),
+    Figure("plan-compiled", "the same in Python, planned before", _YAML, "ratio", 1.0, "s", 1000, SIZES, 20),
     Figure(
         "plan-growth", "plan of 10,000 nodes in YAML", "plan of 1,000 nodes",
         "exponent", 1.1, "s", 1000, (100, 300, 1000), 20,
     ),
     Figure(
         "plan-command", "`orchestra plan` of 1,000 nodes in YAML, all of it", _WHOLE,
-        "ratio", 3.0, "s", 1000, _SIZES, 20,
+        "ratio", 3.0, "s", 1000, SIZES, 20,
     ),
-    Figure("plan-again", "`orchestra plan` of it again, all of it", _COMPOSE, "ratio", 3.0, "s", 1000, _SIZES, 20),
+    Figure("plan-again", "`orchestra plan` of it again, all of it", COMPOSE, "ratio", 3.0, "s", 1000, SIZES, 20),
     Figure(
         "plan-command-mixed", "`orchestra plan` of many kinds, all of it", _WHOLE,
-        "ratio", 3.0, "s", 1000, _SIZES, 20,
+        "ratio", 3.0, "s", 1000, SIZES, 20,
     ),
 )  # fmt: skip
 
@@ -66,9 +66,9 @@ print(time.process_time() - began)
 def measure(site: Site, size: int) -> Mapping[str, Sample]:
     """Measure it with so many nodes, and with ten times as many."""
     files = {language: node_tree.write(site.folder, language, size) for language in ("yaml", "xml", "py")}
-    composed, process = _composed(site, files["yaml"])
+    composed, process = to_compose(site, files["yaml"])
     varied = varied_tree.write(site.folder, size)
-    composed_varied, process_varied = _composed(site, varied)
+    composed_varied, process_varied = to_compose(site, varied)
     # New in a folder that code is imported from, it would be a reason to make the plan again.
     for name in ("cache", "commands"):
         (site.folder / name).mkdir()
@@ -78,12 +78,12 @@ def measure(site: Site, size: int) -> Mapping[str, Sample]:
     command, again, command_varied = (
         _commanded(apart, file) for file in (files["yaml"], files["yaml"], varied)
     )
-    yaml, xml, python = (_planned(site, language, file, size) for language, file in files.items())
-    compiled = _planned(site, "py", files["py"], size)
-    many = _planned(site, "yaml", node_tree.write(site.folder, "yaml", 10 * size), 10 * size)
+    yaml, xml, python = (to_plan(site, language, file, size) for language, file in files.items())
+    compiled = to_plan(site, "py", files["py"], size)
+    many = to_plan(site, "yaml", node_tree.write(site.folder, "yaml", 10 * size), 10 * size)
     return {
         "plan-yaml": Sample(yaml, composed),
-        "plan-mixed": Sample(_planned(site, "yaml", varied, size), composed_varied),
+        "plan-mixed": Sample(to_plan(site, "yaml", varied, size), composed_varied),
         "plan-command": Sample(command, process),
         "plan-command-mixed": Sample(command_varied, process_varied),
         "plan-again": Sample(again, composed),
@@ -94,7 +94,7 @@ def measure(site: Site, size: int) -> Mapping[str, Sample]:
     }
 
 
-def _composed(site: Site, file: Path) -> tuple[float, float]:
+def to_compose(site: Site, file: Path) -> tuple[float, float]:
     """Return the seconds that it takes to compose the files beside one, and those of the interpreter that does it."""
     seconds = []
     whole = _of_children(lambda: seconds.append(launching.printed(_COMPOSING, [file.parent], site)))
@@ -118,7 +118,8 @@ def _of_children(call: Callable[[], None]) -> float:
     return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
 
 
-def _planned(site: Site, language: str, file: Path, size: int) -> float:
+def to_plan(site: Site, language: str, file: Path, size: int) -> float:
+    """Return the seconds that the plan of a file takes, which has so many nodes."""
     folder = site.folder / "one"
     folder.mkdir(exist_ok=True)
     one = folder / f"{language}1" / f"part1_0.launch.{language}"
