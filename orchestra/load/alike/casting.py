@@ -19,7 +19,8 @@ from orchestra.description.source import Keyed, Listed, Verbatim
 from orchestra.description.text import Items, Template
 from orchestra.errors import Problems
 from orchestra.fields import field
-from orchestra.load.alike.learned import Form, Manner, UnlikeError, escaped
+from orchestra.load.alike.assembled import CLOSE, EXPRESSION, OPEN, TEXT, Part, assembled
+from orchestra.load.alike.learned import Form, Manner, UnlikeError
 from orchestra.load.alike.making import MAKING
 from orchestra.load.keys import spelled
 from orchestra.load.offsets import Source
@@ -46,7 +47,7 @@ def learned(item: Any, action: Action, whole: Source, begin: int, end: int, mann
     """
     cast = _Cast(whole, begin, end, manner)
     code = cast.action(item, action)
-    pattern = re.compile(cast.expression())
+    pattern = assembled(cast.expression())
     groups = {offsets: number + 1 for number, offsets in enumerate(cast.ordered())}
 
     def numbered(found: re.Match[str]) -> str:
@@ -67,7 +68,8 @@ def learned(item: Any, action: Action, whole: Source, begin: int, end: int, mann
 class _Cast:
     """Gathers the groups of an expression by their offsets, and the code that makes an entity of them.
 
-    What is `inside` of a group is an expression for a value, None where other groups and what stands there are.
+    What is `inside` of a group is an expression for a value, or the value; None where other groups and what stands
+    there are.
     """
 
     whole: Source
@@ -75,7 +77,7 @@ class _Cast:
     end: int
     manner: Manner
     known: dict[str, Any] = field(default_factory=dict)
-    inside: dict[tuple[int, int], str | None] = field(default_factory=dict)
+    inside: dict[tuple[int, int], Part | None] = field(default_factory=dict)
     lines: list[str] = field(default_factory=list)
 
     def action(self, item: Any, action: Action) -> str:  # noqa: ANN401 - a tree
@@ -132,8 +134,9 @@ class _Cast:
         if self.whole.text[first:last] != written.text:
             raise UnlikeError
         free = "" if way == _OWN else self.manner.harmless(self.whole.text, self.begin, first, last)
-        free = free if free and re.fullmatch(free, written.text) else escaped(written.text)
-        name, group = f"text{len(self.lines)}", self.group((first, last), free)
+        any_text = free and re.fullmatch(free, written.text)
+        inside = (EXPRESSION, free) if any_text else (TEXT, written.text)
+        name, group = f"text{len(self.lines)}", self.group((first, last), inside)
         self.lines.append(f"{name} = {way or _TEXT}(match[{group}], at, {group}, {written.quoted}, reader)")
         return name
 
@@ -147,10 +150,10 @@ class _Cast:
         self.known[name] = value
         return name
 
-    def group(self, offsets: tuple[int, int], inside: str | None) -> str:
+    def group(self, offsets: tuple[int, int], inside: Part | None) -> str:
         """Add a group between two offsets; return what stands for its number."""
         within = self.begin <= offsets[0] <= offsets[1] <= self.end
-        if not within or self.inside.setdefault(offsets, inside) is not inside:
+        if not within or self.inside.setdefault(offsets, inside) != inside:
             raise UnlikeError
         return f"@{offsets[0]}:{offsets[1]}@"
 
@@ -158,9 +161,9 @@ class _Cast:
         """Return the groups in the order in which they open."""
         return sorted(self.inside, key=lambda group: (group[0], -group[1]))
 
-    def expression(self) -> str:
-        """Return the expression for all texts of the form."""
-        found: list[str] = []
+    def expression(self) -> list[Part]:
+        """Return the expression for all texts of the form, in its parts."""
+        found: list[Part] = []
         opened: list[int] = []
         at = self.begin
 
@@ -168,26 +171,27 @@ class _Cast:
             nonlocal at
             if until < at:
                 raise UnlikeError
-            found.append(escaped(self.whole.text[at:until]))
+            found.append((TEXT, self.whole.text[at:until]))
             at = until
 
         for first, last in self.ordered():
             while opened and opened[-1] <= first:
                 take(opened.pop())
-                found.append(")")
+                found.append((CLOSE, ""))
             take(first)
             inside = self.inside[first, last]
+            found.append((OPEN, ""))
             if inside is None:
-                found.append("(")
                 opened.append(last)
             else:
-                found.append(f"({inside})")
+                found += inside, (CLOSE, "")
                 at = last
         while opened and opened[-1] < self.end:
             take(opened.pop())
-            found.append(")")
+            found.append((CLOSE, ""))
         # Lists in block form end where the next thing begins: behind all that may stand there.
-        return "".join([*found, self.manner.ending(self.whole.text[at : self.end]), ")" * len(opened)])
+        text, behind = self.manner.ending(self.whole.text[at : self.end])
+        return [*found, (TEXT, text), (EXPRESSION, behind), *[(CLOSE, "")] * len(opened)]
 
 
 def _offsets(span: Span) -> tuple[int, int]:

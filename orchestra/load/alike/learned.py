@@ -45,11 +45,11 @@ class Manner:
 
     `harmless` gives an expression for all texts that may stand in the place of one without a change of anything around
     them, empty where there is none: the text of the file, and the offsets of the action, of the value and behind it.
-    `ending` does so for what is behind the last value.
+    `ending` does so for what is behind the last value, with the text that has to stand there first.
     """
 
     harmless: Callable[[str, int, int, int], str]
-    ending: Callable[[str], str]
+    ending: Callable[[str], tuple[str, str]]
 
 
 @dataclass(frozen=True, slots=True)
@@ -93,8 +93,3 @@ def action_of(forms: list[Form] | None, whole: Source, begin: int, end: int, rea
         if match is not None:
             return form.make(whole, match, reader)
     return None
-
-
-def escaped(text: str) -> str:
-    """Return an expression for a text, with blanks and dashes as they are: an escape takes three times as long."""
-    return re.escape(text).replace("\\ ", " ").replace("\\\n", "\n").replace("\\-", "-")

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING, Any, Final
 
-from orchestra.load.alike.learned import Forms, Manner, escaped
+from orchestra.load.alike.learned import Forms, Manner
 from orchestra.load.alike.one_by_one import Item
 from orchestra.load.alike.xml_tags import read
 from orchestra.load.xml_file import tree_of_action
@@ -84,4 +84,8 @@ def _harmless(text: str, start: int, begin: int, end: int) -> str:
     return _VALUE
 
 
-MANNER: Final = Manner(_harmless, escaped)
+def _ending(text: str) -> tuple[str, str]:
+    return text, ""
+
+
+MANNER: Final = Manner(_harmless, _ending)

@@ -10,7 +10,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING, Any, Final
 
-from orchestra.load.alike.learned import Forms, Manner, escaped
+from orchestra.load.alike.learned import Forms, Manner
 from orchestra.load.alike.one_by_one import Item
 from orchestra.load.alike.yaml_entities import read
 
@@ -91,9 +91,9 @@ def _harmless(text: str, start: int, begin: int, end: int) -> str:
     return _WITH_COLONS if text.find(":", begin, end) >= 0 else _IN_BLOCK
 
 
-def _ending(text: str) -> str:
+def _ending(text: str) -> tuple[str, str]:
     closed = _CLOSED.fullmatch(text)
-    return escaped(text) if closed is None else f"{escaped(closed[1])}{_REST}"
+    return (text, "") if closed is None else (closed[1], _REST)
 
 
 MANNER: Final = Manner(_harmless, _ending)
