@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from operator import attrgetter
 from typing import TYPE_CHECKING, Any, Final, Protocol
 
 from orchestra.dataclass import dataclass, maker
@@ -24,7 +25,7 @@ class Whole(Protocol):
 
 
 @dataclass(frozen=True, order=True)
-class Span:
+class Span:  # noqa: PLW1641 - its hash is that of its fields
     """A range of text. Lines and columns are 1-based, columns count code points, the end is exclusive.
 
     Of the many that a file has few are ever shown: one that is given by offsets gets its fields when the first is read.
@@ -50,6 +51,14 @@ class Span:
 
     if not TYPE_CHECKING:  # for type checkers there are the fields above and no others
 
+        def __eq__(self, other: object) -> bool:
+            if type(other) is not Span:
+                return NotImplemented
+            offsets = getattr(self, "_offsets", None)
+            if offsets is not None and offsets == getattr(other, "_offsets", None):
+                return True
+            return _fields(self) == _fields(other)
+
         def __getattr__(self, name: str) -> str | int:
             if name == "file":  # it is asked for by itself, and known without a look at the text
                 return self._offsets[0].file
@@ -64,6 +73,7 @@ class Span:
 
 
 FIELDS: Final = ("file", "line", "column", "end_line", "end_column")
+_fields: Final = attrgetter(*FIELDS)
 _new = object.__new__
 _set_offsets: Callable[[Span, tuple[Whole, int, int]], None] = vars(Span)["_offsets"].__set__
 

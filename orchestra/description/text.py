@@ -6,6 +6,7 @@ them: most are read once, as what they come to.
 
 from __future__ import annotations
 
+from operator import attrgetter
 from typing import TYPE_CHECKING, Any, Self, TypeAlias
 
 from orchestra.dataclass import dataclass, maker
@@ -230,6 +231,8 @@ class MatchedTemplate(Template):
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Template):
             return NotImplemented
+        if isinstance(other, MatchedTemplate) and _said(self) == _said(other):
+            return True
         return self.ordinary == getattr(other, "ordinary", other)
 
     def __hash__(self) -> int:
@@ -247,6 +250,7 @@ class MatchedTemplate(Template):
         return new_template(self.parts, self.raw, self.span, self.quoted, self.faulty)
 
 
+_said = attrgetter("raw", "quoted", "pieces", "span")
 _new = object.__new__
 
 
