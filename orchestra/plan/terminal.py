@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from operator import attrgetter
+from typing import TYPE_CHECKING, Final
 
 from orchestra.errors import Code
 
@@ -12,9 +13,13 @@ if TYPE_CHECKING:
     from orchestra.errors import Problems
     from orchestra.resolve.model import ResolvedProcess
 
+_STDIN: Final = attrgetter("stdin")
+
 
 def check_stdin(processes: Mapping[str, ResolvedProcess], problems: Problems) -> None:
     """Report every process but the first that has `stdin`; the processes by their ids."""
+    if not any(map(_STDIN, processes.values())):
+        return
     reading = [
         (identity, process.stdin) for identity, process in processes.items() if process.stdin is not None
     ]

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from itertools import compress
+from operator import attrgetter
+from typing import TYPE_CHECKING, Final
 
 from orchestra.plan.reactions import (
     CancelAction,
@@ -28,6 +30,8 @@ if TYPE_CHECKING:
     from orchestra.plan.reactions import TriggeredAction
     from orchestra.resolve.model import Resolved
 
+_SHUTDOWN: Final = attrgetter("shutdown_on_exit")
+
 
 def triggers(
     resolved: Resolved, ids: Sequence[str], components: Sequence[str], before: int
@@ -45,8 +49,9 @@ def triggers(
             deferred=False,
             location=process.location,
         )
-        for process, identity in zip(resolved.processes, ids, strict=True)
-        if process.shutdown_on_exit
+        for process, identity in compress(
+            zip(resolved.processes, ids, strict=True), map(_SHUTDOWN, resolved.processes)
+        )
     ) + tuple(
         _trigger(f"t{number}", item, ids, components)
         for number, item in enumerate(resolved.triggers, before + 1)

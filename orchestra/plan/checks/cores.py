@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from operator import attrgetter
 from typing import TYPE_CHECKING, Final
 
 from orchestra.errors import Code
@@ -12,12 +13,15 @@ if TYPE_CHECKING:
     from orchestra.resolve.model import Resolved
     from orchestra.values import Limits
 
+_LIMITS: Final = attrgetter("limits")
 _REAL_TIME: Final = "fifo"
 
 
 def check_cores(resolved: Resolved, plan: Plan, problems: Problems) -> None:
     """Report exclusive cores that others are given too, and real-time processes that starve each other."""
     del resolved
+    if not any(map(_LIMITS, plan.processes)):
+        return
     limited = [(process, process.limits) for process in plan.processes if process.limits is not None]
     owners = {core: process for process, limits in limited if limits.exclusive for core in limits.cores or ()}
     first: dict[tuple[int, int], Process] = {}

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from functools import cache
-from typing import TYPE_CHECKING
+from itertools import chain, compress, repeat
+from operator import attrgetter, ne
+from typing import TYPE_CHECKING, Final
 
 from orchestra.declared.beside import schema_of_package
 from orchestra.declared.common import COMMON, KNOWN, common_meant
@@ -17,7 +19,8 @@ from orchestra.resolve.model import FileParameters, NamedSchema, ResolvedCompone
 from orchestra.resolve.refusals import forget_surprise
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Iterator
+    from typing import TypeAlias
 
     from orchestra.declared.model import Fault, FaultKind, ParameterSchema
     from orchestra.location import Location
@@ -25,12 +28,18 @@ if TYPE_CHECKING:
     from orchestra.resolve.model import ParameterSource, Resolved, ResolvedProcess
     from orchestra.values import ParameterValue
 
+    _Program: TypeAlias = "tuple[str | None, str | None, str, NamedSchema | None]"
+
 _CODES: dict[FaultKind, Code] = {
     "undeclared": Code.UNDECLARED_PARAMETER,
     "type": Code.DECLARED_TYPE,
     "value": Code.REFUSED_VALUE,
     "missing": Code.REQUIRED_PARAMETER,
 }
+_KIND: Final = attrgetter("kind")
+# What tells which parameters a node declares.
+_EXECUTABLE: Final = attrgetter("share", "package", "executable", "params_schema")
+_PLUGIN: Final = attrgetter("share", "package", "plugin", "params_schema")
 _MANAGERS = "nav2_lifecycle_manager"
 
 
@@ -41,7 +50,10 @@ def check_declared(resolved: Resolved, plan: Plan, problems: Problems) -> None:
     broken = {_line(item) for item in problems if item.severity is Severity.ERROR and item.span is not None}
     plain: set[str] = set()  # names that are no slip for one that every node has
     forms: set[tuple[object, ...]] = set()  # of values among which are such
-    for node, planned in nodes_of(resolved, plan):
+    unknown: set[_Program] = set()  # programs of which nothing is known
+    for program, node, planned in programs_of(resolved, plan):
+        if program in unknown and planned.parameters.keys() <= plain:
+            continue  # as most nodes
         if node.package == _MANAGERS and not node.faulty:
             # Here, because few descriptions have such.
             from orchestra.plan.checks.managed import check_managed  # noqa: PLC0415
@@ -49,6 +61,8 @@ def check_declared(resolved: Resolved, plan: Plan, problems: Problems) -> None:
             check_managed(planned, places.of("node_names", node, planned), plan, problems)
         schema, named = schemas.of(node)
         values = planned.parameters
+        if schema is None and node.package != _MANAGERS:
+            unknown.add(program)
         if schema is None and (values.keys() <= plain or (*values, *map(type, values.values())) in forms):
             continue
         faults = _of_every_node(values, plain, forms) if schema is None else schema.faults(values)
@@ -71,9 +85,19 @@ def nodes_of(
     resolved: Resolved, plan: Plan
 ) -> list[tuple[ResolvedProcess | ResolvedComponent, Process | Component]]:
     """Return the nodes of a plan, each with what it was resolved to."""
-    processes = zip(resolved.processes, plan.processes, strict=True)
-    components = zip(resolved.components, plan.components, strict=True)
-    return [*[pair for pair in processes if pair[0].kind != "process"], *components]
+    return [(node, planned) for _, node, planned in programs_of(resolved, plan)]
+
+
+def programs_of(
+    resolved: Resolved, plan: Plan
+) -> Iterator[tuple[_Program, ResolvedProcess | ResolvedComponent, Process | Component]]:
+    """Return the nodes of a plan, each behind what tells its program, with what it was resolved to."""
+    processes, components = resolved.processes, resolved.components
+    nodes = zip(map(_EXECUTABLE, processes), processes, plan.processes, strict=True)
+    return chain(
+        compress(nodes, map(ne, map(_KIND, processes), repeat("process"))),
+        zip(map(_PLUGIN, components), components, plan.components, strict=True),
+    )
 
 
 class _Schemas:

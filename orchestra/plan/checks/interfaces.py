@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from operator import attrgetter
+from typing import TYPE_CHECKING, Final
 
 from orchestra.declared.interfaces.finding import may_be_declared
 from orchestra.plan.checks.declared import nodes_of
@@ -13,14 +14,16 @@ if TYPE_CHECKING:
     from orchestra.plan.model import Plan
     from orchestra.resolve.model import Resolved
 
+_EXECUTABLE: Final = attrgetter("share", "executable")
+_PLUGIN: Final = attrgetter("share", "plugin")
+
 
 def check_interfaces(resolved: Resolved, plan: Plan, problems: Problems) -> None:
     """Report what keeps nodes from talking with each other; nothing is known where no package declares interfaces."""
-    programs = {(item.share, item.executable) for item in resolved.processes if item.kind != "process"}
-    programs |= {(item.share, item.plugin) for item in resolved.components}
+    programs = {*map(_EXECUTABLE, resolved.processes), *map(_PLUGIN, resolved.components)}
     called: dict[str, set[str]] = {}
     for share, name in programs:
-        if share is not None:
+        if share is not None:  # as that of what is no node is
             called.setdefault(share, set()).add(name)
     if not any(may_be_declared(share, names) for share, names in called.items()):
         return

@@ -6,13 +6,14 @@ only where nobody else uses it and another node uses the other.
 
 from __future__ import annotations
 
+from operator import attrgetter, itemgetter
 from typing import TYPE_CHECKING, Final, TypeAlias
 
 from orchestra.dataclass import dataclass, maker
 from orchestra.errors import Code
 from orchestra.plan.ids import domains_of
 from orchestra.resolve.context import Value
-from orchestra.resolve.names import InvalidName, expanded
+from orchestra.resolve.names import InvalidName, expanded, full_name
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
@@ -25,6 +26,10 @@ if TYPE_CHECKING:
     _Written: TypeAlias = ResolvedProcess | ResolvedComponent
 
 _PAIR: Final = 2
+_RULES: Final = attrgetter("namespace", "remappings")
+_READY: Final = attrgetter("ready")
+_TARGET: Final = itemgetter(1)
+_OWN: Final = frozenset("~{\n")  # in a name: it has that of its node in it, or is none
 _GLOBAL: Final = frozenset({"tf", "tf_static", "clock", "rosout", "parameter_events", "diagnostics"})
 # What is told where nodes say which topics they have.
 _KNOWN: Final = frozenset({Code.TOPIC_TYPE, Code.UNFED_TOPIC})
@@ -45,9 +50,9 @@ _new_use = maker(_Use)
 
 def check_topics(resolved: Resolved, plan: Plan, problems: Problems) -> None:
     """Report names that nobody else uses beside nearly the same one of another node."""
-    uses = list(_uses(resolved, plan))
-    if not uses:
+    if _cannot_meet(resolved, plan):
         return
+    uses = list(_uses(resolved, plan))
     told: set[object] = {problem.span for problem in problems if problem.code in _KNOWN}
     domains = domains_of(resolved)
     if domains is None:
@@ -56,6 +61,33 @@ def check_topics(resolved: Resolved, plan: Plan, problems: Problems) -> None:
     of_nodes = {planned.id: domains[id(written)] for planned, written in _pairs(resolved, plan)}
     for domain in dict.fromkeys(of_nodes.values()):  # nodes of two never meet
         _check_domain([use for use in uses if of_nodes[use.node] == domain], plan, told, problems)
+
+
+def _cannot_meet(resolved: Resolved, plan: Plan) -> bool:
+    """Tell whether all names together are apart as those of a domain are in `_are_apart`, without a look at each.
+
+    Names that are not looked at later are among them, and such as a node's own name is part of are left to that.
+    """
+    rules: dict[str, list[tuple[str, str]]] = {}
+    for namespace, remappings in map(_RULES, (*plan.processes, *plan.components)):
+        if remappings:
+            rules.setdefault(namespace or "/", []).extend(remappings)
+    if any(map(_READY, resolved.processes)):
+        return False
+    names: set[str] = set()
+    below_root: set[str] = set()
+    for namespace, pairs in rules.items():
+        written = set(map(_TARGET, pairs))
+        if not _OWN.isdisjoint("".join(written)):
+            return False
+        begin = full_name(namespace, "")
+        names.update([text if text.startswith("/") else begin + text for text in written])
+        if namespace != "/":
+            below_root.update(["/" + text for text in written])
+    alike = "\n".join(names).replace("/", "").lower().split("\n")
+    if names and not len({*alike}) == len(alike) == len(names):
+        return False
+    return names.isdisjoint(below_root)
 
 
 def _check_domain(uses: Sequence[_Use], plan: Plan, told: set[object], problems: Problems) -> None:

@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Final
 
 from orchestra.errors import Code
-from orchestra.plan.checks.declared import nodes_of
+from orchestra.plan.checks.declared import nodes_of, programs_of
 from orchestra.plan.written import Places
 from orchestra.resolve.model import ResolvedComponent
 from orchestra.resolve.rcl.scalars import typed
@@ -55,14 +55,14 @@ def _odd(resolved: Resolved, plan: Plan) -> dict[tuple[str | None, str], set[str
     """Return the names of parameters that nodes of one program are given with values of several types, by program."""
     types: dict[tuple[str | None, str], dict[str, type]] = {}
     odd: dict[tuple[str | None, str], set[str]] = {}
-    for node, planned in nodes_of(resolved, plan):
+    for (_, package, called, _), node, planned in programs_of(resolved, plan):
         values = planned.parameters
         if not values:
             continue
-        program = (node.package, node.plugin if isinstance(node, ResolvedComponent) else node.executable)
-        kinds = dict(zip(values, map(type, values.values()), strict=True))
+        program = package, called
+        kinds = dict(zip(values, map(type, values.values())))  # noqa: B905 - as long as each other
         known = types.get(program)
-        if (known is not None and kinds.items() <= known.items()) or node.package is None or node.faulty:
+        if (known is not None and kinds.items() <= known.items()) or package is None or node.faulty:
             continue  # as most nodes of a program
         known = types.setdefault(program, kinds)
         for name, kind in kinds.items() - known.items():

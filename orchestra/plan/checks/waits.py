@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from itertools import chain
+from operator import attrgetter
+from typing import TYPE_CHECKING, Final
 
 from orchestra.errors import Code
 from orchestra.plan.absent import is_mistake
@@ -21,21 +23,22 @@ if TYPE_CHECKING:
     from orchestra.resolve.model import Resolved, ResolvedComponent, ResolvedProcess
     from orchestra.resolve.typos_among import Names
 
+_DEPENDS_ON: Final = attrgetter("depends_on")
+_READY: Final = attrgetter("ready")
+
 
 def check_waits(resolved: Resolved, plan: Plan, problems: Problems) -> None:
     """Report dependencies that cannot come about, and facts about nodes whose names are slips."""
     ends = [
         edge
-        for process in plan.processes
-        if process.depends_on
-        for edge in process.depends_on
+        for edge in chain.from_iterable(map(_DEPENDS_ON, plan.processes))
         if edge.required and edge.condition in ("completed", "exited")
     ]
     if ends:
         by_id = {process.id: process for process in plan.processes}
         for edge in ends:
             _check_end(by_id.get(edge.process), edge.condition, edge.location, problems)
-    if all(process.ready is None for process in plan.processes):
+    if not any(map(_READY, plan.processes)):
         return
     nodes: list[ResolvedProcess | ResolvedComponent] = [*resolved.processes, *resolved.components]
     started = _Started({name for node in nodes if (name := node_name(node)) is not None})
