@@ -18,7 +18,7 @@ from orchestra.plan.ids import base_identity, node_name
 from orchestra.plan.model import Candidate, Component, Provenance, new_component
 from orchestra.plan.parameters import settings_of
 from orchestra.plan.provenance import naming, remapping_values
-from orchestra.plan.remappings import check_remaps
+from orchestra.plan.remappings import remappings
 from orchestra.resolve.model import FileParameters, InlineParameter
 
 if TYPE_CHECKING:
@@ -81,7 +81,7 @@ def _component(
     problems: Problems,
 ) -> Component:
     full = node_name(component)
-    check_remaps(component, problems)
+    rules = remappings(component, problems) if component.remaps else ()
     overrides = settings_of(sections.given_to(component), full)
     return new_component(
         id=identity,
@@ -93,7 +93,7 @@ def _component(
         process=process,
         condition="event" if component.delayed else "started",
         parameters=_values(component.parameters, full, sections, overrides),
-        remappings=tuple((rule.source.text, rule.target.text) for rule in component.remaps),
+        remappings=rules,
         extra_arguments=_values(component.extra_arguments, full, sections, {}),
         lifecycle="active" if component.autostart else None,
         location=component.location,

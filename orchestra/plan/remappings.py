@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from functools import lru_cache
+from operator import attrgetter, itemgetter
+from typing import TYPE_CHECKING, Final
 
 from orchestra.errors import Code
 from orchestra.resolve.remaps import dead_rules, read_rule
@@ -12,15 +14,27 @@ if TYPE_CHECKING:
     from orchestra.resolve.model import ResolvedComponent, ResolvedProcess
 
 _ROOT = "/"  # where hardly any program chooses another namespace
+_TEXTS: Final = attrgetter("source.text", "target.text")
+_FIRST: Final = itemgetter(0)
 
 
-def check_remaps(process: ResolvedProcess | ResolvedComponent, problems: Problems) -> None:
+def remappings(node: ResolvedProcess | ResolvedComponent, problems: Problems) -> tuple[tuple[str, str], ...]:
+    """Return the rules of a node in order of effect, as texts. One that can never act is reported."""
+    rules: tuple[tuple[str, str], ...] = tuple(map(_TEXTS, node.remaps))
+    if len(rules) > 1 and not _are_apart(tuple(map(_FIRST, rules))):
+        _check(node, problems)
+    return rules
+
+
+@lru_cache(maxsize=256)  # nodes that are alike have rules for the same names
+def _are_apart(sources: tuple[str, ...]) -> bool:
+    """Tell whether names are plain relative ones, of which none stands for another, as most are."""
+    plain = len({*sources}) == len(sources) and all(map(str.isidentifier, sources))
+    return plain and not any(source.startswith("__") for source in sources)
+
+
+def _check(process: ResolvedProcess | ResolvedComponent, problems: Problems) -> None:
     """Report rules that an earlier one, often of an outer scope, keeps from acting: the first that matches counts."""
-    if len(process.remaps) < 2:  # noqa: PLR2004 - nothing stands before it
-        return
-    sources = {rule.source.text for rule in process.remaps}
-    if len(sources) == len(process.remaps) and all(map(_is_apart, sources)):
-        return
     rules = [read_rule(rule.source.text, rule.target.text) for rule in process.remaps]
     namespace = process.namespace.text if process.namespace is not None else _ROOT
     for dead in dead_rules(rules, namespace, process.name.text if process.name is not None else None):
@@ -37,8 +51,3 @@ def check_remaps(process: ResolvedProcess | ResolvedComponent, problems: Problem
             location,
             notes=(f"the rule that counts is at {earlier.source.location}",),
         )
-
-
-def _is_apart(source: str) -> bool:
-    """Tell whether a name is a plain relative one, which no other one of that kind stands for."""
-    return source.isidentifier() and not source.startswith("__")

@@ -10,6 +10,7 @@ from __future__ import annotations
 import os
 import sys
 from functools import cache
+from operator import attrgetter
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
 from orchestra.fields import replace
@@ -33,6 +34,9 @@ _FROM_THE_START = (
 # Limits of the address space count what the server has loaded; that of the stack decides where things are in it.
 _OF_MEMORY = ("as", "data", "stack", "memlock")
 _BEGINNING = 65536  # bytes of a script in which it is looked for what it imports
+# What few processes have, each of which speaks against it or may (`_outward`), and what all others have.
+_outside = attrgetter("shell", "prefix", "inherit_environment", "stdin", "limits")
+_PLAIN = (False, (), True, None, None)
 _LONGEST_NAME = 15  # of a process (prctl(2), PR_SET_NAME)
 _ENV = "/usr/bin/env"
 
@@ -69,14 +73,15 @@ def warmed(plan: Plan, environment: Mapping[str, str]) -> Plan:
 class Warmth:
     """Decides about the processes of a plan; `environment` is the one in which they are started."""
 
-    __slots__ = ("_environment", "_general", "_known", "_programs", "_search_path")
+    __slots__ = ("_alike", "_environment", "_general", "_programs", "_search_path")
 
     def __init__(self, environment: Mapping[str, str]) -> None:
         self._environment = environment
         self._general = _general(environment)
         self._search_path = cache(lambda: _search_path(environment))
         self._programs: dict[tuple[str, ...], tuple[Warm, bool]] = {}
-        self._known: dict[tuple[str | None, ...], tuple[Warm, bool]] = {}  # by what commands begin with
+        # Of processes of which nothing speaks against it: by their kinds, folders, what commands begin with, variables.
+        self._alike: dict[tuple[object, ...], Warm] = {}
 
     def of(
         self,
@@ -88,15 +93,26 @@ class Warmth:
         """Decide about one process, by what is wished, its command and its own environment."""
         if wished is not None and not wished.warm:
             return wished
+        if wished is not None or _outside(process) != _PLAIN:
+            return self._decide(process, wished, command, own)
+        key = (process.kind, process.cwd, *command[:3], *own.items())
+        known = self._alike.get(key)
+        if known is None:
+            known = self._alike[key] = self._decide(process, None, command, own)
+        return known
+
+    def _decide(
+        self,
+        process: Process | ResolvedProcess,
+        wished: Warm | None,
+        command: tuple[str, ...],
+        own: Mapping[str, str | None],
+    ) -> Warm:
         reason = _outward(process, command) or (own and self._by_environment(own)) or self._general
         if reason:
             return Warm(False, reason)
         path = (own["PATH"] if "PATH" in own else self._search_path()) or os.defpath
-        key = (path, process.cwd, *command[:3])
-        program = self._known.get(key)
-        if program is None:
-            program = self._known[key] = self._program(command, process.cwd, path)
-        warm, imports = program
+        warm, imports = self._program(command, process.cwd, path)
         if process.kind == "process" and wished is None and warm.warm and not imports:
             return Warm(False, "it is no node, and says nothing of rclpy")
         return warm
