@@ -2,20 +2,113 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Final
 
-from orchestra.compat.place import Place, standing
+from orchestra.compat.launch_ros.plain_texts import read
+from orchestra.compat.place import Arguments, Place, standing
 from orchestra.compat.refusing import Refusing
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
+    from orchestra.compat.launch_ros.call_code import Form
+    from orchestra.compat.launch_ros.plain_texts import Readers
 
 
 class Made:
-    """The fields of a model, and the arguments of which they were made, with lists and dictionaries of its own."""
+    """The arguments of which the fields of a model are made, with lists and dictionaries of its own.
 
-    __slots__ = ("fields", "given")
+    `resolved` and `prepared` give what a visit has come to, where that is told; `condition` is that of a component.
+    """
 
-    def __init__(self, fields: dict[str, Any], given: dict[str, Any]) -> None:
-        self.fields = fields
-        self.given = given
+    __slots__ = ("_call", "_fields", "_form", "_kept", "condition", "prepared", "resolved")
+
+    condition: Any
+
+    def __init__(self, call: Arguments, kept: Any, fields: dict[str, Any] | None, form: Form | None) -> None:
+        self._call = call
+        self._kept = kept
+        self._fields = fields
+        self._form = form
+        self.resolved: Callable[[], tuple[Any, ...]] | None = None
+        self.prepared: Callable[[], tuple[Any, ...]] | None = None
+
+    @property
+    def given(self) -> dict[str, Any]:
+        """The keywords of the call."""
+        if self._form is not None:
+            self._kept = self._form.given(self._kept)
+            self._form = None
+        kept: dict[str, Any] = self._kept
+        return kept
+
+    def fields(self, usual: Usual) -> dict[str, Any] | None:
+        """Return the fields of the model; None where an argument is usual no more.
+
+        They are for the first visit, and take more room than all that is left of it. Few objects have another one: then
+        the arguments are read again.
+        """
+        fields = self._fields
+        if fields is None and self._form is not None:
+            self._fields = _GONE
+            return self._form.make(self._kept, self._call)
+        if fields:
+            self._fields = _GONE
+            return fields
+        fields = usual.unwritten.copy()
+        return None if read(self.given, self._call, usual.readers, fields) is None else fields
+
+
+class Usual:
+    """The arguments of one constructor that are of the usual kinds, and the forms of calls that many others have.
+
+    `series` tells of lists by what a form reads them, into which field, and what an empty one is.
+    """
+
+    def __init__(
+        self,
+        readers: Readers,
+        series: Mapping[str, tuple[str, str, Any]],
+        unwritten: dict[str, Any],
+        needed: tuple[str, ...],
+    ) -> None:
+        self.readers = readers
+        self.unwritten = unwritten
+        self._series = series
+        self._needed = needed
+        self._forms: dict[tuple[str, ...], list[Form]] = {}
+        self._seen: dict[Any, int] = {}
+
+    def made(self, given: dict[str, Any], place: Place) -> Made | None:
+        """Return what an object is made of that is constructed at a place; None where a keyword is not usual."""
+        call, names = Arguments(place), tuple(given)
+        forms = self._forms.get(names, ())
+        for form in forms:
+            leaves = form.take(given, call)
+            if leaves is not None:
+                return Made(call, leaves, None, form)
+        fields = self.unwritten.copy()
+        kept = read(given, call, self.readers, fields)
+        if kept is None or None in [fields[name] for name in self._needed]:
+            return None
+        if len(forms) < _MOST_FORMS:
+            self._learn(names, kept)
+        return Made(call, kept, fields, None)
+
+    def _learn(self, names: tuple[str, ...], given: dict[str, Any]) -> None:
+        """Learn the form of a call where there have been some like it. Only every few calls are looked at."""
+        seen = self._seen
+        count = seen[names] = seen.get(names, 0) + 1
+        if count % _EVERY or count > _MANY:
+            return
+        from orchestra.compat.launch_ros.call_forms import form_of, shape  # noqa: PLC0415 - few files have so many
+
+        alike = names, *map(shape, given.values())
+        seen[alike] = seen.get(alike, 0) + 1
+        if seen[alike] == _ENOUGH:
+            self._forms.setdefault(names, []).append(
+                form_of(given, self.readers, self._series, self.unwritten)
+            )
 
 
 class MadeLater(Refusing):
@@ -40,3 +133,11 @@ class MadeLater(Refusing):
         with standing(own["_place"]):
             self.__init__(**made.given)  # type: ignore[misc] # with the keywords of the subclass
         vars(self).update(own)
+
+
+_GONE: Final[dict[str, Any]] = {}
+# A form takes as long to be learned as some fifty calls to be read; there may be no other call of that form.
+_EVERY: Final = 4
+_ENOUGH: Final = 6
+_MANY: Final = 400
+_MOST_FORMS: Final = 4

@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.compat.building import condition_fields
-from orchestra.compat.launch_ros.made_later import Made, MadeLater
+from orchestra.compat.launch_ros.made_later import Made, MadeLater, Usual
 from orchestra.compat.launch_ros.plain_parameters import parameters, remaps
-from orchestra.compat.launch_ros.plain_texts import entity, left, read
+from orchestra.compat.launch_ros.plain_texts import entity, left
 from orchestra.compat.place import Place
 from orchestra.description.components import ComposableNode
 
@@ -29,11 +29,12 @@ class PlainComponent(MadeLater):
         kind = type(self)
         if "_may_be_plain" not in vars(kind):
             return False
-        place, fields = Place(caller.f_code, caller.f_lasti, kind), _NOTHING.copy()
-        kept = read(keywords, place, _READ, fields)
-        if kept is None or fields["pkg"] is None or fields["plugin"] is None:
+        place = Place(caller.f_code, caller.f_lasti, kind)
+        made = USUAL.made(keywords, place)
+        if made is None:
             return False
-        self.__dict__ = {"_place": place, "_plain": Made(fields, kept)}
+        made.condition = keywords.get("condition")
+        self.__dict__ = {"_place": place, "_plain": made}
         return True
 
     def _plain_model(self) -> ComposableNode | None:
@@ -45,11 +46,14 @@ class PlainComponent(MadeLater):
             self._construct()
             return None
         made: Made = own["_plain"]
-        condition = made.given.get("condition")
+        condition = made.condition
         said = {} if condition is None else condition_fields(condition, self._place.at("condition"))
         if any(text.constant is not None for text in said.values()):  # the validator looks at its words
             return None
-        values = made.fields | {_CONDITIONS[word]: text for word, text in said.items()}
+        fields = made.fields(USUAL)
+        if fields is None:
+            return None
+        values = fields | {_CONDITIONS[word]: text for word, text in said.items()}
         model: ComposableNode = entity(ComposableNode, values, self._place.span, self)
         return model
 
@@ -57,7 +61,6 @@ class PlainComponent(MadeLater):
 # What a component has as long as it is plain: its place, and what it is made of.
 _OF_PLAIN: Final = 2
 _CONDITIONS: Final = {"if": "if_", "unless": "unless"}
-_NOTHING: Final = ComposableNode._unwritten()
 _READ: Final[Readers] = {
     "package": "pkg",
     "plugin": "plugin",
@@ -68,3 +71,13 @@ _READ: Final[Readers] = {
     "extra_arguments": parameters("extra_arg"),
     "condition": left,
 }
+USUAL: Final = Usual(
+    _READ,
+    {
+        "parameters": ("params", "param", ()),
+        "remappings": ("remaps", "remap", ()),
+        "extra_arguments": ("params", "extra_arg", ()),
+    },
+    ComposableNode._unwritten(),
+    ("pkg", "plugin"),
+)

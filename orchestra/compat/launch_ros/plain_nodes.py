@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, Final
 from orchestra.compat.building import unchecked
 from orchestra.compat.launch.actions.execute_local import OVERRIDE
 from orchestra.compat.launch.actions.execute_process import ExecuteProcess
-from orchestra.compat.launch_ros.made_later import Made, MadeLater
+from orchestra.compat.launch_ros.made_later import Made, MadeLater, Usual
 from orchestra.compat.launch_ros.plain_parameters import parameters, remaps
 from orchestra.compat.launch_ros.plain_texts import (
     UnusualError,
@@ -23,7 +23,6 @@ from orchestra.compat.launch_ros.plain_texts import (
     entity,
     left,
     plain_text,
-    read,
     word,
 )
 from orchestra.compat.place import Arguments, Key, Place, ValueOf
@@ -36,38 +35,6 @@ if TYPE_CHECKING:
     from types import FrameType
 
     from orchestra.description.entity import Action as Model
-
-
-class Plain(Made):
-    """What a node is made of; `resolved` and `prepared` give what a visit has come to.
-
-    The fields are for the first visit. They take more room than all that is left of it, and few nodes have another one:
-    then the arguments are read again.
-    """
-
-    __slots__ = ("prepared", "resolved")
-
-    def __init__(self, fields: dict[str, Any], given: dict[str, Any]) -> None:
-        super().__init__(fields, given)
-        self.resolved: Callable[[], tuple[Any, ...]] | None = None
-        self.prepared: Callable[[], tuple[Any, ...]] | None = None
-
-    def model(self, place: Place, common: Mapping[str, Any]) -> Any:
-        """Return the model; `common` are the fields that every action has. None where an argument is usual no more."""
-        origin, fields = common["origin"], self.fields
-        if fields:
-            self.fields = {}
-        else:
-            fields = _NOTHING.copy()
-            if read(self.given, place, _READ, fields) is None:
-                return None
-        if len(common) == 1:
-            return entity(NodeModel, fields, place.span, origin)
-        condition = unchecked(common)
-        if condition is not None:
-            return entity(NodeModel, {**fields, **condition}, place.span, origin)
-        said = {name: value for name, value in fields.items() if value is not None}
-        return NodeModel.at(place.span, **said, **common)
 
 
 class PlainNode(MadeLater, ExecuteProcess):
@@ -83,7 +50,7 @@ class PlainNode(MadeLater, ExecuteProcess):
         if "_may_be_plain" not in vars(kind) or _says_output(os.environ):
             return False
         place = Place(caller.f_code, caller.f_lasti, kind)
-        made = plain(keywords, place)
+        made = USUAL.made(keywords, place)
         if made is None:
             return False
         condition = keywords.get("condition")
@@ -91,17 +58,17 @@ class PlainNode(MadeLater, ExecuteProcess):
         return True
 
     def _construct(self) -> None:
-        made: Plain = vars(self)["_plain"]
+        made: Made = vars(self)["_plain"]
         super()._construct()
         if made.resolved is not None:
             self._resolved_by(made.resolved)
         if made.prepared is not None:
             self._prepared_by(made.prepared)
 
-    def _plainly(self) -> Plain | None:
+    def _plainly(self) -> Made | None:
         """Return what the node is made of as long as nobody has asked for more, or set something."""
         own = vars(self)
-        made: Plain | None = own.get("_plain")
+        made: Made | None = own.get("_plain")
         if made is not None and len(own) > _OF_PLAIN:
             self._construct()
             return None
@@ -109,7 +76,7 @@ class PlainNode(MadeLater, ExecuteProcess):
 
     def _resolved_by(self, names: Callable[[], tuple[Any, ...]]) -> None:
         """Take note of what gives what a visit has come to."""
-        made: Plain | None = vars(self).get("_plain")
+        made: Made | None = vars(self).get("_plain")
         if made is not None:
             made.resolved = names
         else:
@@ -119,7 +86,7 @@ class PlainNode(MadeLater, ExecuteProcess):
         """Take note of what a visit has come to; a node does."""
 
     def _prepared_by(self, details: Callable[[], tuple[Any, ...]]) -> None:
-        made: Plain | None = vars(self).get("_plain")
+        made: Made | None = vars(self).get("_plain")
         if made is not None:
             made.prepared = details
         else:
@@ -127,7 +94,7 @@ class PlainNode(MadeLater, ExecuteProcess):
 
     def _to_model(self, common: Mapping[str, Any]) -> Model:
         made = self._plainly()
-        model: Model | None = None if made is None else made.model(self._place, common)
+        model: Model | None = None if made is None else _model(made, self._place, common)
         if model is None:
             if made is not None:
                 self._construct()
@@ -143,11 +110,21 @@ def _says_output(environ: Any) -> bool:
     return OVERRIDE in environ if known is None else _OVERRIDE in known
 
 
-def plain(given: dict[str, Any], place: Place) -> Plain | None:
-    """Return what a node is made of that is constructed from keywords at a place; None where one is not usual."""
-    fields = _NOTHING.copy()
-    kept = read(given, place, _READ, fields)
-    return None if kept is None or fields["exec"] is None else Plain(fields, kept)
+def _model(made: Made, place: Place, common: Mapping[str, Any]) -> Model | None:
+    """Return the model; `common` are the fields that every action has. None where an argument is usual no more."""
+    origin, fields = common["origin"], made.fields(USUAL)
+    if fields is None:
+        return None
+    model: Model
+    if len(common) == 1:
+        model = entity(NodeModel, fields, place.span, origin)
+        return model
+    condition = unchecked(common)
+    if condition is not None:
+        model = entity(NodeModel, {**fields, **condition}, place.span, origin)
+        return model
+    said = {name: value for name, value in fields.items() if value is not None}
+    return NodeModel.at(place.span, **said, **common)
 
 
 def _prefix(name: str, value: Any, call: Arguments, fields: dict[str, Any], kept: dict[str, Any]) -> None:
@@ -224,7 +201,6 @@ _OVERRIDE: Final = OVERRIDE.encode()
 # What a node has as long as it is plain: its place, its condition, and what it is made of.
 _OF_PLAIN: Final = 3
 _NUMBERS: Final = (int, float)
-_NOTHING: Final = NodeModel._unwritten()
 _READ: Final[dict[str, Callable[..., None] | str]] = {
     "package": "pkg",
     "executable": "exec",
@@ -244,3 +220,14 @@ _READ: Final[dict[str, Callable[..., None] | str]] = {
     "additional_env": _environment,
     "condition": left,
 }
+USUAL: Final = Usual(
+    _READ,
+    {
+        "parameters": ("params", "param", ()),
+        "remappings": ("remaps", "remap", ()),
+        "arguments": ("words", "args", None),
+        "ros_arguments": ("words", "ros_args", ()),
+    },
+    NodeModel._unwritten(),
+    ("exec",),
+)

@@ -35,7 +35,7 @@ def parameters(field: str) -> Reader:
         for index, item in enumerate(value):
             path = (name, index)
             if type(item) is dict:
-                own.append(_entries(item, ((), "", ""), call, path, made))
+                own.append(entries(item, ((), "", ""), call, path, made))
             else:
                 file = plain_text(item, call, path)
                 made.append(_param({"from_": file}, call.span(path)))
@@ -67,7 +67,7 @@ def remaps(name: str, value: Any, call: Arguments, fields: dict[str, Any], kept:
     kept[name] = own
 
 
-def _entries(
+def entries(
     items: dict[Any, Any],
     around: tuple[tuple[Part, ...], str, str],
     call: Arguments,
@@ -86,32 +86,32 @@ def _entries(
                 raise UnusualError
             parts = (*before, new_words(key, span)) if key else before
             inner = ((*parts, new_words(".", span)), f"{written}{escaped(key)}.", f"{name}.")
-            own[key] = _entries(value, inner, call, path, made)
+            own[key] = entries(value, inner, call, path, made)
             continue
         if before or "$" in key or "\\" in key:
             parts = (*before, new_words(key, span)) if key else before
             called = new_template(parts, written + escaped(key), span)
         else:
             called = matched_words(key, False, call, path)  # type: ignore[arg-type] # its groups are paths
-        read, own[key] = _value(value, call, (*path, name))
+        read, own[key] = value_of(value, call, (*path, name))
         made.append(_param({"name": called, "value": read}, span))
     return own
 
 
 def _param(fields: dict[str, Any], span: Span) -> Param:
-    made: Param = entity(Param, _NO_PARAMETER | fields, span)
+    made: Param = entity(Param, NO_PARAMETER | fields, span)
     return made
 
 
-def _value(value: Any, call: Arguments, path: tuple[Way, ...]) -> tuple[Any, Any]:
+def value_of(value: Any, call: Arguments, path: tuple[Way, ...]) -> tuple[Any, Any]:
     """Return what the value of a parameter is to the model, and a copy of it."""
     kind = type(value)
-    if kind in _SCALARS:
+    if kind in SCALARS:
         return new_constant(value, argument(call.place, path)), value
     if kind is not list and kind is not tuple:
         return whole_text(value), value
     kinds = set(map(type, value))
-    if kinds <= _SCALARS:
+    if kinds <= SCALARS:
         if len(kinds) > 1 and kinds not in ({int, float}, {bool, int}):
             raise UnusualError
         items = map(float, value) if kinds == {int, float} else value
@@ -120,5 +120,5 @@ def _value(value: Any, call: Arguments, path: tuple[Way, ...]) -> tuple[Any, Any
 
 
 _SIDES: Final = 2
-_SCALARS: Final = frozenset({str, bool, int, float})
-_NO_PARAMETER: Final = Param._unwritten()
+SCALARS: Final = frozenset({str, bool, int, float})
+NO_PARAMETER: Final = Param._unwritten()

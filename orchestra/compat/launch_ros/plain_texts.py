@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
 from orchestra.compat.calls import CallSubstitution, Composed, new_composed
 from orchestra.compat.launch.substitutions.text_substitution import TextSubstitution
-from orchestra.compat.place import Arguments
 from orchestra.description.model import Model
 from orchestra.description.text import (
     MatchedTemplate,
@@ -21,7 +20,7 @@ from orchestra.description.written import escaped
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
-    from orchestra.compat.place import Place, Way
+    from orchestra.compat.place import Arguments, Way
     from orchestra.description.text import Part
     from orchestra.location import Span
 
@@ -36,13 +35,13 @@ Readers: TypeAlias = "Mapping[str, Reader | str]"
 
 
 def read(
-    given: dict[str, Any], place: Place, readers: Readers, fields: dict[str, Any]
+    given: dict[str, Any], call: Arguments, readers: Readers, fields: dict[str, Any]
 ) -> dict[str, Any] | None:
-    """Read the keywords of a call at a place into the fields of a model, which are all there, each as it is unwritten.
+    """Read the keywords of a call into the fields of a model, which are all there, each as it is unwritten.
 
     Return the keywords with lists and dictionaries of their own; None where one is not usual.
     """
-    call, kept = Arguments(place), given.copy()
+    kept = given.copy()
     try:
         for name, value in given.items():
             if value is None:

@@ -25,6 +25,9 @@ class LaunchConfiguration(ParsedSubstitution):
 
     _name = "var"
     _parameters = ("variable_name", "default")
+    # What the variable alone is as a text, as long as no code has had the list of what its name is made of.
+    _sure: Template | None = None
+    __is_shown = False
 
     def __init__(self, variable_name: Sub, *, default: Any = None) -> None:
         self._place = here(self, IN_CONSTRUCTOR)
@@ -34,19 +37,21 @@ class LaunchConfiguration(ParsedSubstitution):
     @property
     def variable_name(self) -> list[Substitution]:
         """The name."""
+        self._sure = None
+        self.__is_shown = True
         return self.__variable_name
 
     def describe(self) -> str:
         """Return the name and what it is."""
-        return f"LaunchConfig({described(self.variable_name)})"
+        return f"LaunchConfig({described(self.__variable_name)})"
 
     def _arguments(self) -> Sequence[Sequence[Substitution]]:
-        name = self.variable_name
+        name = self.__variable_name
         return (name,) if self.__default is None else (name, self.__default)
 
     def _whole(self) -> Template | None:
         name, place, kept = self.__variable_name, self._place, self._kept
-        if self.__default is not None or type(self).perform is not _perform:
+        if self.__default is not None or type(self).perform is not PERFORM:
             return super()._whole()
         # As there, at once: launch files have thousands of these.
         if kept is not None and kept[0][0] == name and kept[2] is place:
@@ -58,10 +63,12 @@ class LaunchConfiguration(ParsedSubstitution):
             return super()._whole()
         made = variable(text, place)
         self._kept = (list(name),), made, place
+        if not self.__is_shown:
+            self._sure = made
         return made
 
 
-_perform: Final = LaunchConfiguration.perform
+PERFORM: Final = LaunchConfiguration.perform
 
 
 def _texts(default: Any) -> Any:

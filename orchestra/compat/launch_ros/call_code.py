@@ -1,0 +1,162 @@
+"""Code that is written for the form of a call: what is looked at, what is taken from it, and what is made of that."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Final
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+    from orchestra.compat.place import Arguments, Way
+
+
+class Form:
+    """What calls of one form have in common.
+
+    `take` returns what one may differ in from others, None for one of another form; `make` the fields, of that.
+    """
+
+    __slots__ = ("_skeleton", "make", "take")
+
+    def __init__(
+        self,
+        take: Callable[[dict[str, Any], Arguments], tuple[Any, ...] | None],
+        make: Callable[[tuple[Any, ...], Arguments], dict[str, Any]],
+        skeleton: dict[str, Any],
+    ) -> None:
+        self.take = take
+        self.make = make
+        self._skeleton = skeleton
+
+    def given(self, leaves: tuple[Any, ...]) -> dict[str, Any]:
+        """Return the keywords that were taken apart, with lists and dictionaries of their own."""
+        made: dict[str, Any] = _filled(self._skeleton, leaves)
+        return made
+
+
+class Leaf(int):
+    """Where something that may differ stands among all of that."""
+
+
+def _filled(skeleton: Any, leaves: tuple[Any, ...]) -> Any:
+    kind = type(skeleton)
+    if kind is Leaf:
+        return leaves[skeleton]
+    if kind is dict:
+        return {name: _filled(item, leaves) for name, item in skeleton.items()}
+    return kind(_filled(item, leaves) for item in skeleton) if kind in _SERIES else skeleton
+
+
+class Level:
+    """What is looked at together: types first, then what is inside of it is taken out."""
+
+    def __init__(self) -> None:
+        self.exact: list[str] = []
+        self.types: list[type[Any]] = []
+        self.scalars: list[str] = []
+        self.opened: list[str] = []
+
+
+class Code:
+    """The code for calls of one form while it is written, by the names that it has for what is outside of it.
+
+    `texts` are what must be texts with nothing to look at in them, `needed` those of them that must not be empty;
+    `variables` are the lines that take variables of launch files, `others` those that read what has to be read each
+    time, `making` those before the fields are made.
+    """
+
+    def __init__(self, known: dict[str, Any]) -> None:
+        self.texts: list[str] = []
+        self.needed: list[str] = []
+        self.variables: list[str] = []
+        self.others: list[str] = []
+        self.making: list[str] = []
+        self._known = known
+        self._levels: list[Level] = []
+        self._leaves: list[str] = []
+        self._names = 0
+
+    def items(self, level: int, var: str, value: Sequence[Any]) -> list[tuple[str, Any]]:
+        """Have the items of a list or a tuple taken out; return them, each with its variable."""
+        self.exactly(level, var, type(value))
+        names = self.new(len(value))
+        self.level(level).opened.append(f"{targets(names)} = {var}" if names else f"() = {var}")
+        return list(zip(names, value, strict=True))
+
+    def exactly(self, level: int, var: str, kind: type[Any]) -> None:
+        """Have only calls taken in which something is of this type."""
+        wanted = self.level(level)
+        wanted.exact.append(var)
+        wanted.types.append(kind)
+
+    def level(self, level: int) -> Level:
+        """Return what is looked at so deep inside of the call."""
+        while len(self._levels) <= level:
+            self._levels.append(Level())
+        return self._levels[level]
+
+    def at(self, path: tuple[Way, ...]) -> str:
+        """Return the variable that has the place of an argument, or of what it holds."""
+        name = self.new(1)[0]
+        self.making.append(f"{name} = span({self.constant(path)})")
+        return name
+
+    def leaf(self, var: str) -> Leaf:
+        """Have something taken that may differ."""
+        self._leaves.append(var)
+        return Leaf(len(self._leaves) - 1)
+
+    def new(self, count: int) -> list[str]:
+        """Return names that nothing has yet."""
+        self._names += count
+        return [f"x{number}" for number in range(self._names - count, self._names)]
+
+    def constant(self, value: Any) -> str:
+        """Return the name of something that all calls of the form have."""
+        if value is None or value == ():
+            return repr(value)
+        name = f"k{len(self._known)}"
+        self._known[name] = value
+        return name
+
+    def compiled(self, first: str, fields: list[str], skeleton: dict[str, Any]) -> Form:
+        """Compile all that has been written."""
+        lines = [first]
+        for level in self._levels:
+            if level.exact:
+                types = f"[*map(type, ({', '.join(level.exact)},))]"
+                lines.append(f"if {types} != {self.constant(level.types)}: return None")
+            if level.scalars:
+                lines.append(
+                    f"if not scalars.issuperset(map(type, ({', '.join(level.scalars)},))): return None"
+                )
+            lines += level.opened
+        if self.texts:
+            lines.append(f'text = "".join(({", ".join(self.texts)},))')
+            lines.append('if "$" in text or "\\\\" in text: return None')
+        if self.needed:
+            lines.append(f"if not ({' and '.join(self.needed)}): return None")
+        if self.variables:
+            lines.append("if LaunchConfiguration.perform is not perform: return None")
+        lines += self.variables
+        lines += self.others
+        taking = "\n  ".join(lines)
+        leaves = targets(self._leaves)
+        making = "\n ".join([f"{leaves} = leaves" if leaves else "", *self.making])
+        text = (
+            f"def take(given, call):\n try:\n  {taking}\n except unusual: return None\n return ({leaves})\n"
+            f"def make(leaves, call):\n place, span = call.place, call.span\n {making}\n"
+            f" return nothing | {{{', '.join(fields)}}}\n"
+        )
+        exec(compile(text, _WRITTEN, "exec"), self._known)  # noqa: S102 - names that are made here
+        return Form(self._known["take"], self._known["make"], skeleton)
+
+
+def targets(names: Sequence[str]) -> str:
+    """Return variables as what a series is assigned to."""
+    return "".join(f"{name}, " for name in names).rstrip()
+
+
+_SERIES: Final = frozenset({list, tuple})
+# The file of code that is written here: who watches what code does knows by it that it is ours.
+_WRITTEN: Final = f"{__file__}: written"
