@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.compat.looks import Compiled
 from orchestra.resolve.python.form_codes import Classes, CodeForm, Columns, is_same
-from orchestra.resolve.python.form_slots import QUOTES, Name, number_of
+from orchestra.resolve.python.form_slots import QUOTES, Name, Sum, is_sum, number_of, sum_of
 from orchestra.resolve.python.numbered import Told, numbers_of
 
 if TYPE_CHECKING:
@@ -104,8 +104,11 @@ class Form:
         if "\\" in written or "\n" in written:
             return None
         for (kind, before), value in zip(self._others, own[self._texts :], strict=True):
-            key = (Name, before + value) if kind is Name and value.isdigit() else number_of(value)
-            if key is None or key[0] is not kind:
+            if kind is Sum:
+                key = sum_of(value)
+            else:
+                key = (Name, before + value) if kind is Name and value.isdigit() else number_of(value)
+            if key is None or (key[0] is not kind and kind is not Sum):
                 return None
             keys.append(key)
         known = set(keys)
@@ -138,7 +141,7 @@ class Form:
         return "\n".join([values[place] for place in self._firsts]).encode()
 
 
-_ORDER: Final = {str: 0, int: 1, float: 2, Name: 3}
+_ORDER: Final = {str: 0, int: 1, float: 2, Sum: 3, Name: 4}
 
 
 def _kind(literal: str, before: str) -> type[Any]:
@@ -146,6 +149,8 @@ def _kind(literal: str, before: str) -> type[Any]:
         return Name
     if literal[0] in QUOTES:
         return str
+    if is_sum(literal):
+        return Sum
     return float if "." in literal else int
 
 

@@ -2,7 +2,8 @@
 
 Such a literal is a whole element of a call, a list, a tuple or a dictionary, or all that a statement assigns, in a
 statement that makes, calls, goes through or returns things and does nothing else. No operator is applied to it but +
-with what has a name, so that the compiler works nothing out with it, and whether it is true decides no jump. Such a
+with what has a name, so that the compiler works nothing out with it, and whether it is true decides no jump. A number
+may have a sign, and what numbers come to is one literal with its operators (`12 + 0.5`), as it is one constant. Such a
 name ends with a number, is that of a variable of a function, which nothing else is called (`node_12`), and all
 statements of its file are like that.
 
@@ -13,6 +14,7 @@ from __future__ import annotations
 
 import re
 from keyword import iskeyword, kwlist
+from operator import add, mul, sub, truediv
 from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.patterns import pattern
@@ -20,10 +22,14 @@ from orchestra.patterns import pattern
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterable, Iterator, Sequence
 
-# A comment, a text, a number, or that at the end of a name. Texts of one line without backslashes come first.
+# A comment, a text, a number or what several come to, or a number at the end of a name. Texts of one line without
+# backslashes come first.
 _LEXEME: Final = re.compile(
-    r"""([\#"'0-9](?:
-        (?<=")(?!"")[^"\\\n]*" | (?<=')(?!'')[^'\\\n]*' | (?<=\#)[^\n]* | (?<![\w.].)(?<=[0-9])[\w.]*
+    r"""([\#"'0-9-](?:
+        (?<=")(?!"")[^"\\\n]*" | (?<=')(?!'')[^'\\\n]*' | (?<=\#)[^\n]*
+        | (?:(?<=-)[0-9] | (?<![\w.].)(?<=[0-9]))
+            (?:[0-9]*(?:\.[0-9]+)?\ *[-+*/]\ *[0-9]+(?:\.[0-9]+)?(?![\w.]|\ *[-+*/])
+            | [0-9.]*[eE]-[0-9]+(?!\w) | [\w.]*)
         | (?<=[A-Za-z_].)(?<=[0-9])[0-9]*(?!\w)
         | (?<=")""(?:[^"\\]|\\.|"(?!""))*"{3} | (?<=')''(?:[^'\\]|\\.|'(?!''))*'{3}
         | (?<=")(?:[^"\\\n]|\\.)*" | (?<=')(?:[^'\\\n]|\\.)*'
@@ -35,14 +41,19 @@ _NAME: Final = re.compile(r"[A-Za-z_]\w*\Z", re.ASCII)
 _WORD: Final = re.compile(r"[A-Za-z_]\w*", re.ASCII)
 # A text in braces that holds nothing but names, calls and the like.
 _OF_BRACES: Final = "fF"
+_SUM: Final = pattern(r"(-?[0-9]{1,15}(?:\.[0-9]{1,15})?) *([-+*/]) *([0-9]{1,15}(?:\.[0-9]{1,15})?)")
+_OPERATORS: Final = {"+": add, "-": sub, "*": mul, "/": truediv}
 _FLAT: Final = pattern(r"""(["'])(?:""|'')?(?:[^{}'"\\]|\{[^{}'"\\]*\})*["']+""")
 # Without literals and blanks: signs of plain statements, of numbers and of what a function returns, and what is not
 # plain of that.
-_PLAIN: Final = b'()[]{},:=.+"_0123456789abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ'
+_PLAIN: Final = b'()[]{},:=.+"$_0123456789abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ'
 _SIGNED: Final = tuple(f"{before}-0" for before in "([{,=:")
 _NOT_PLAIN: Final = ("==", ":=", "+=", ")[", "][", "}[", '"[')
 _PLUS: Final = pattern(r"\+")
-_IN_BRACES: Final = '@""'  # for a text in braces, which is not plain
+# For a text in braces, which is like a call of names, and for one of several lines, which is not plain.
+_IN_BRACES: Final = '$""'
+_IN_LINES: Final = '@""'
+_SHORT: Final = {"#": "", "-": "-0"}  # by how they begin: comments, and numbers that have a sign
 _ENDING: Final = pattern(r"[()\[\]{}\n]")
 _KEYWORDS: Final = frozenset(kwlist) - {
     *("from", "import", "as", "def", "return", "None", "True", "False", "for", "in")
@@ -72,7 +83,7 @@ def key_of(literal: str) -> Any:
     if literal[0] in QUOTES:
         text = literal[1:-1]
         return None if literal[0] in text or "\\" in text or "\n" in text else text
-    return number_of(literal)
+    return number_of(literal) or sum_of(literal)
 
 
 def number_of(literal: str) -> Any:
@@ -82,6 +93,29 @@ def number_of(literal: str) -> Any:
     except ValueError:
         return None
     return (type(number), number) if repr(number) == literal else None
+
+
+class Sum(float):
+    """What two numbers come to that are written with an operator between them."""
+
+    __slots__ = ()
+
+
+def sum_of(literal: str) -> Any:
+    """Return what two numbers come to, with its type; None where it is nothing, or written in another way."""
+    found = _SUM.fullmatch(literal)
+    if found is None:
+        return None
+    first, second = map(number_of, found.group(1, 3))
+    if first is None or second is None or (found[2] == "/" and not second[1]):
+        return None
+    number = _OPERATORS[found[2]](first[1], second[1])
+    return type(number), number
+
+
+def is_sum(literal: str) -> bool:
+    """Return whether a number is written as what two come to."""
+    return not _OPERATORS.keys().isdisjoint(literal[1:]) and _SUM.fullmatch(literal) is not None
 
 
 class Slots:
@@ -97,7 +131,7 @@ class Slots:
             raise ValueError("there is what is not looked into")
         is_plain = _is_plain(self._text)
         self._kept = [] if is_plain else list(_kept(self._text))
-        self.is_plain = is_plain and "for" not in words and "+" not in self._text
+        self.is_plain = is_plain and "for" not in words and "+" not in self._text and "$" not in self._text
 
     def at(self, indices: Iterable[int]) -> tuple[dict[int, str | None], set[Any]]:
         """Return what stands before each of some literals of the same name, None for comments; and values of others.
@@ -120,21 +154,23 @@ class Slots:
             if self.is_plain and name[0] + literal in self._variables:
                 return name[0]
             raise ValueError("a name that is known elsewhere")
-        if key_of(literal) is None or not self._decides_nothing(self._places[index], literal[0] in QUOTES):
+        if key_of(literal) is None or not self._decides_nothing(self._places[index], literal):
             raise ValueError("a literal decides something")
         return ""
 
-    def _decides_nothing(self, place: int, is_text: bool) -> bool:
+    def _decides_nothing(self, place: int, literal: str) -> bool:
         """Return whether what stands at a place is a whole element, by what stands next to it."""
+        is_text = literal[0] in QUOTES
         if any(begin <= place < end for begin, end in self._kept):
             return False
         before = self._text[max(place - _FAR, 0) : place].rstrip()
-        rest = self._text[place + (2 if is_text else 1) : place + _FAR].lstrip(" \t")
+        rest = self._text[place + (2 if is_text or literal[0] == "-" else 1) : place + _FAR].lstrip(" \t")
         last, behind = before[-1:], rest.lstrip()[:1]
-        if last == "+" and _ends_with_name(before[:-1]):
-            last = "="
-        if behind == "+" and _begins_with_name(rest.lstrip()[1:]):
-            behind = ","
+        if not is_sum(literal):
+            if last == "+" and _ends_with_name(before[:-1]):
+                last = "="
+            if behind == "+" and _begins_with_name(rest.lstrip()[1:]):
+                behind = ","
         if last == "=" and rest[:1] == "\n":  # of a statement, or a call that goes on
             return True
         if last not in _BEFORE or behind not in _BEHIND or not (last and behind):
@@ -162,7 +198,7 @@ def _bare(parts: Sequence[str]) -> tuple[str, list[int]]:
             if part[0] in QUOTES:
                 bare = '""' if not (before.isalnum() or before == "_") else _in_braces(parts[index - 1], part)
             else:
-                bare = "" if part[0] == "#" else "0"
+                bare = _SHORT.get(part[0], "0")
         else:
             before = part[-1:]
         found.append(bare)
@@ -174,7 +210,7 @@ def _in_braces(before: str, literal: str) -> str:
     is_alone = before[-1:] in _OF_BRACES and not (before[-2:-1].isalnum() or before[-2:-1] == "_")
     if not is_alone or _FLAT.fullmatch(literal) is None:
         raise ValueError("a text of another kind")
-    return _IN_BRACES
+    return _IN_LINES if "\n" in literal else _IN_BRACES
 
 
 def _is_plain(text: str) -> bool:

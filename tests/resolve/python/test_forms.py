@@ -213,7 +213,7 @@ def _is_plain(parts: list[str]) -> bool:
     "text",
     [
         "x = f'{a}'", "x = b'a'", "if x:\n    pass", "x = [lambda: 3]", "x = [i for i in 'a']", "x = not y",
-        "x = (a := 3)", "x = a == 3", "x = 3 - 2", "x = a -2", "x = call(*y)", "x = ('a', 'b')[1]",
+        "x = (a := 3)", "x = a == 3", "x = 3 - 2 - 1", "x = 3 // 2", "x = a -2", "x = call(*y)", "x = ('a', 'b')[1]",
         "x = 'a'[1]", "x = a[1][2]", "@d\ndef f(): pass", "class C: pass", "match x:\n    case 1: pass", "x = 'a' if y else 'b'",
         "x = call() \\\n    .other()", "global x", "async def f(): pass", "x = {*y}", "x = 'a' % y",
     ],
@@ -305,6 +305,20 @@ def test_other_texts_than_ascii_and_other_lines_are_left_to_the_compiler() -> No
     for text in texts:
         known.code(text)
     assert known.compiled == len(texts)
+
+
+def test_what_two_numbers_come_to_is_one_literal_and_numbers_may_have_signs() -> None:
+    known = Files()
+    text = "def f(y):\n    return [Node(f'n{y}', rate=@1@ + 0.5, at=[@2@, y]) for y in range(@1@, @1@ * 2)]\n"
+    for number in range(10, 18):
+        known.code(_filled(_LITERAL + text, [f"{number}", f"-{number}.25"]))
+    assert known.compiled == 2
+    for number, sign in enumerate(("-", "*", "/"), 20):
+        known.code(_filled(_LITERAL + text, [f"{number}", "-91.75"]).replace("+", sign))
+    assert known.compiled == 2
+    for other in ("+ 0.5 + 1", "+ 0.5 * y", "// 3", "+ (5)"):
+        known.code(_filled(_LITERAL + text, ["30", "-91.75"]).replace("+ 0.5", other))
+    assert known.compiled == 6
 
 
 def test_a_file_that_differs_elsewhere_too_makes_the_form_wider() -> None:
