@@ -59,11 +59,11 @@ def parse_template(
 
 def sound_template(text: str, spans: Callable[[int, int], Span], *, quoted: bool = False) -> Template | None:
     """Read a short text of which there is nothing to tell; None where there is, or may be."""
-    known = known_template(text, _by_itself)
+    known = known_template(text, by_itself)
     return None if known is None else placed(known, spans, quoted)
 
 
-def _by_itself(text: str, spans: Callable[[int, int], Span], problems: Problems) -> Template:
+def by_itself(text: str, spans: Callable[[int, int], Span], problems: Problems) -> Template:
     """Return the template that a text is to who knows no names but those of the language."""
     return Template(_Reader(text, spans, problems, others=False).parts("", "", 0), text, spans(0, len(text)))
 

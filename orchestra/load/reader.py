@@ -49,7 +49,7 @@ _QUOTES = ("'", '"')
 _HALF_QUOTED = pattern(r"""[^\s"']*[^\s"'0-9]["']""")
 # Substitutions without their '$', of names that nobody puts in brackets for anything else, or with their name before
 # the bracket, as `$env(HOME)`.
-_BARE = pattern(
+BARE = pattern(
     r"(?<![$\\\w])(?:(?:\$[ ]|[%@&#])?\((var|find-pkg-share|find-pkg-prefix|exec-in-pkg|find-exec|path-join)[ ]"
     r"(?:[^()]|\$\([^()]*\))+\)"
     r"|\$(env|var|find-pkg-share|find-pkg-prefix|exec-in-pkg|find-exec|dirname|eval|command)\("
@@ -95,7 +95,7 @@ class Reader:
         if text[-1:] in _QUOTES and not written.quoted and _ends_half_quoted(written):
             told = f"the {text[-1]} at the end of '{text}' is part of the text: nothing opens it"
             self.warning(Code.SURPRISING_SCALAR, told, written.inside, suggestion=text[-1] + text)
-        if "(" in text and (bare := _BARE.search(text)) is not None and self._is_lost(bare, written):
+        if "(" in text and (bare := BARE.search(text)) is not None and self._is_lost(bare, written):
             return Template((), text, written.inside, written.quoted, faulty=True)
         if text and "$" not in text and "\\" not in text:
             span = written.inside if written.quoted or type(written) is not Verbatim else written.span

@@ -23,12 +23,12 @@ if TYPE_CHECKING:
     Parse: TypeAlias = Callable[[str, Callable[[int, int], Span], Problems], Template]
 
 # Longer texts are not kept.
-_SHORT: Final = 300
+SHORT: Final = 300
 
 
 def known_template(text: str, parse: Parse) -> Shape | None:
     """Return what the template of a text looks like; None where there is something to tell of it."""
-    return _known(text, parse) if len(text) <= _SHORT else None
+    return _known(text, parse) if len(text) <= SHORT else None
 
 
 @lru_cache(maxsize=1024)
@@ -60,8 +60,17 @@ def _part(part: Part) -> _Part:
 
 def placed(shape: Shape, spans: Callable[[int, int], Span], quoted: bool) -> Template:
     """Return the template of such a shape with its spans in a file."""
-    parts, raw, begin, end, _ = shape
-    whole = spans(begin, end)
+    whole = spans(shape.begin, shape.end)
+    return new_template(_parts(shape, spans, whole), shape.raw, whole, quoted)
+
+
+def placed_parts(shape: Shape, spans: Callable[[int, int], Span]) -> tuple[Part, ...]:
+    """Return the parts of such a template."""
+    return _parts(shape, spans, spans(shape.begin, shape.end))
+
+
+def _parts(shape: Shape, spans: Callable[[int, int], Span], whole: Span) -> tuple[Part, ...]:
+    parts, _, begin, end, _ = shape
     made: list[Part] = []
     for text, arguments, first, last in parts:
         at = whole if first == begin and last == end else spans(first, last)
@@ -70,4 +79,4 @@ def placed(shape: Shape, spans: Callable[[int, int], Span], quoted: bool) -> Tem
         else:
             inner = [placed(argument, spans, argument.quoted) for argument in arguments]
             made.append(new_call(text, tuple(inner), at))
-    return new_template(tuple(made), raw, whole, quoted)
+    return tuple(made)

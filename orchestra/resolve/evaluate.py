@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import os
 from functools import lru_cache
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Any, Final
 
-from orchestra.description.text import Call, MatchedTemplate, Opaque, Words
+from orchestra.description.text import Call, MatchedTemplate, Opaque, Pieces, Words
 from orchestra.location import new_location
 from orchestra.resolve.context import POISON, Poison, new_value
 from orchestra.resolve.late_values import matched_value
@@ -15,7 +15,7 @@ from orchestra.resolve.substitutions.table import performing
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from orchestra.description.text import Part, Pieces, Template
+    from orchestra.description.text import Part, Template
     from orchestra.resolve.context import Context, Evaluated, Read, Value
 
 _VARIABLE: Final = "var"
@@ -121,10 +121,26 @@ def plainly(template: MatchedTemplate, context: Context) -> tuple[str, tuple[Rea
         if len(pieces.pieces) == 1:
             return reads[0].value, reads
         return pieces.filled([read.value for read in reads]), reads
-    if pieces.beside is None or file is None:
+    if pieces.beside is None:
+        return None if type(pieces) is Pieces else _worked_out(pieces, context)
+    if file is None:
         return None
     reads = context.variables.known(pieces.beside)
     return None if reads is None else (_in_folder(pieces, file, reads), reads)
+
+
+def _worked_out(
+    pieces: Any,  # noqa: ANN401 - a `Nested`, of which many files have none
+    context: Context,
+) -> tuple[str, tuple[Read, ...]] | None:
+    """Return the same of calls in others, or with arguments in quotes, that do nothing but calculate."""
+    formula = pieces.formula
+    if formula is None:
+        from orchestra.resolve.formulas.formula import formula_of  # noqa: PLC0415 - as above
+
+        formula = formula_of(pieces)
+    found: tuple[str, tuple[Read, ...]] | None = formula.text(pieces, context.variables)
+    return found
 
 
 def _in_folder(pieces: Pieces, file: str, reads: Sequence[Read]) -> str:

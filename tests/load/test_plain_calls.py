@@ -28,7 +28,7 @@ _PIECES = st.sampled_from(
 
 def _closely(text: str) -> tuple[Template, int]:
     found = Problems()
-    template = grammar._by_itself(text, lambda first, last: Span("", 1, first, 1, last), found)
+    template = grammar.by_itself(text, lambda first, last: Span("", 1, first, 1, last), found)
     return template, len(found)
 
 

@@ -39,19 +39,25 @@ def template(text: str, matched: Matched, group: int, quoted: bool, reader: Read
 
 @lru_cache(maxsize=256)
 def _pieces(text: str) -> Pieces | None:
-    """Return the pieces of a text of plain calls and words that have none of the characters of calls; else None."""
+    """Return the pieces of a text of calls and words, None where it takes a closer look."""
     pieces: list[Piece] = []
     for index, piece in enumerate(_CALLS.split(text)):
         if index % 2:
             call = _call(piece)
             if call is None:
-                return None
+                return _nested(text)
             pieces.append(call)
         elif piece:
             if not _UNLIKE.isdisjoint(piece):
-                return None
+                return _nested(text)
             pieces.append(piece)
     return pieces_of(pieces)
+
+
+def _nested(text: str) -> Pieces | None:
+    from orchestra.load.nested import nested  # noqa: PLC0415 - many files have none of them
+
+    return nested(text)
 
 
 @lru_cache(maxsize=256)  # the calls of a launch file are few, however many different texts they stand in

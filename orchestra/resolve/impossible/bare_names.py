@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Final
 
-from orchestra.description.text import Call
+from orchestra.description.text import Call, MatchedTemplate
 from orchestra.errors import Code
+from orchestra.load.nested import Nested
+from orchestra.resolve.impossible.conditions_alike import may_be_bare
 from orchestra.resolve.mentions import performed_in
 
 if TYPE_CHECKING:
@@ -17,6 +19,12 @@ _COMPARISONS: Final = ("equals", "not-equals")
 
 def check_bare_names(template: Template, run: Resolution) -> None:
     """Tell of such names in a condition, which are compared as the texts that they are."""
+    if (
+        type(template) is MatchedTemplate
+        and isinstance(template.pieces, Nested)
+        and not may_be_bare(template.pieces)
+    ):
+        return
     for part in performed_in(template):
         if not isinstance(part, Call) or part.name not in _COMPARISONS:
             continue

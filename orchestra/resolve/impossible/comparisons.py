@@ -9,10 +9,10 @@ from __future__ import annotations
 import warnings
 from collections.abc import Callable
 from functools import lru_cache
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.dataclass import dataclass
-from orchestra.description.text import Call, MatchedTemplate, Opaque, Words, new_words
+from orchestra.description.text import Call, MatchedTemplate, Opaque, Pieces, Words, new_words
 from orchestra.errors import Code
 from orchestra.location import Span
 from orchestra.nearest import nearest
@@ -47,10 +47,12 @@ class _Side:
 
 def check_comparisons(template: Template, run: Resolution) -> None:
     """Report the comparisons in a condition that are always true or always false."""
-    if type(template) is MatchedTemplate and (
-        template.pieces is None or template.pieces.variables is not None
-    ):
-        return  # of words and variables
+    if type(template) is MatchedTemplate:
+        pieces = template.pieces
+        if pieces is None or pieces.variables is not None:
+            return  # of words and variables
+        if type(pieces) is not Pieces and not _may_be_told(pieces, run):
+            return
     for part in _parts(template):
         if isinstance(part, Call) and part.name in _EQUALITIES and len(part.arguments) > 1:
             one, other = (_side(argument, run) for argument in part.arguments[:2])
@@ -61,6 +63,15 @@ def check_comparisons(template: Template, run: Resolution) -> None:
             holds = _BY_CONFIGURATION.get(_condition(part))
             if holds is not None:
                 _check(_side(part.inside[0], run), _side(part.inside[1], run), run, holds=holds)
+
+
+def _may_be_told(
+    pieces: Any,  # noqa: ANN401 - a `Nested`, of which many files have none
+    run: Resolution,
+) -> bool:
+    from orchestra.resolve.impossible.conditions_alike import may_be_told  # noqa: PLC0415 - as above
+
+    return may_be_told(pieces, run)
 
 
 def _condition(part: Opaque) -> str:

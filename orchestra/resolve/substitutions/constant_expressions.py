@@ -12,15 +12,24 @@ from typing import Any, Final
 from orchestra.patterns import pattern
 
 _LONGEST: Final = 200
-_TEXT: Final = r"""'[^'\\\n]*+'|"[^"\\\n]*+\""""
-_CONSTANT: Final = (
-    rf"(?:(?:not +|- *|\( *)*+(?:{_TEXT}|[0-9]++(?:\.[0-9]++)?+|True\b|False\b|None\b)(?: *\))*+)"
+TEXT: Final = r"""'[^'\\\n]*+'|"[^"\\\n]*+\""""
+# What calculates. What may take long is left out: shifts, powers, and texts time and again.
+FUNCTIONS: Final[dict[str, Any]] = {
+    function.__name__: function for function in (abs, bool, float, int, len, max, min, round, str)
+}
+_METHODS: Final = (
+    *("capitalize", "count", "endswith", "find", "index", "isalnum", "isalpha", "isdigit", "isnumeric"),
+    *("lower", "lstrip", "removeprefix", "removesuffix", "replace", "rstrip", "split", "startswith"),
+    *("strip", "title", "upper"),
 )
-# Those that may take long are left out: shifts, powers, and texts time and again.
-_OPERATOR: Final = r"(?: *+(?:[=!<>]=|<|>|\+|-|//?|%) *+| +(?:and|or|in|not +in) +)"
+_KEYWORDS: Final = ("and", "else", "if", "in", "not", "or")
+_WORDS: Final = "|".join((*_KEYWORDS, "True", "False", "None", *FUNCTIONS))
+CODE: Final = rf"(?:{_WORDS})(?!\w)|[=!<>]=|<(?!<)|>(?!>)|[%+(),[\]-]|//?|\.(?:{'|'.join(_METHODS)})(?=\()"
+# Code that only makes sense to be warned of: a bracket right behind a value.
+MISUSED: Final = pattern(r"""(?:['"\])0-9]|(?:True|False|None)) *[(\[]""")
 # Two texts or two whole numbers, as most of them are.
 _COMPARISON: Final = pattern(
-    rf"(?:({_TEXT})|(0|[1-9][0-9]*+)) *+([=!<>]=|[<>]) *+(?:({_TEXT})|(0|[1-9][0-9]*+))"
+    rf"(?:({TEXT})|(0|[1-9][0-9]*+)) *+([=!<>]=|[<>]) *+(?:({TEXT})|(0|[1-9][0-9]*+))"
 )
 _COMPARED: Final[dict[str, Any]] = {
     "==": operator.eq,
@@ -30,7 +39,7 @@ _COMPARED: Final[dict[str, Any]] = {
     ">": operator.gt,
     ">=": operator.ge,
 }
-_CONSTANTS: Final = pattern(rf"{_CONSTANT}(?:{_OPERATOR}{_CONSTANT})*+")
+_CONSTANTS: Final = pattern(rf"(?: |{TEXT}|[0-9]++(?:\.[0-9]++)?+(?![\w.])|{CODE})++")
 
 
 @lru_cache(maxsize=512)
@@ -45,10 +54,10 @@ def of_constants(expression: str) -> str | None:
             return str(_COMPARED[compared](text[1:-1], other_text[1:-1]))
         if number is not None and other_number is not None:
             return str(_COMPARED[compared](int(number), int(other_number)))
-    if _CONSTANTS.fullmatch(expression) is None:
+    if _CONSTANTS.fullmatch(expression) is None or MISUSED.search(expression) is not None:
         return None
     try:
-        text = str(eval(expression, {"__builtins__": {}}))  # noqa: S307 - of constants
+        text = str(eval(expression, {"__builtins__": FUNCTIONS}))  # noqa: S307 - of constants
     except Exception:  # noqa: BLE001 - whoever evaluates it in full tells why
         return None
     return text if len(text) <= _LONGEST else None

@@ -1,0 +1,80 @@
+"""Texts with calls in arguments of calls, or in quotes, as conditions are: what they are made of is found out once.
+
+Texts that differ by numbers alone have the same skeleton, in which a 0 stands for each: the grammar takes all digits
+alike. Where their parts stand is worked out when somebody asks.
+"""
+
+from __future__ import annotations
+
+import re
+from functools import lru_cache
+from typing import TYPE_CHECKING, Any, Final
+
+from orchestra.description.text import Pieces
+from orchestra.load.grammar import by_itself
+from orchestra.load.reader import BARE
+from orchestra.load.repeated import SHORT, known_template, placed_parts
+from orchestra.location import stretches
+
+if TYPE_CHECKING:
+    from orchestra.description.text import Part
+    from orchestra.load.plain_calls import Shape
+    from orchestra.location import Span
+
+_DIGITS: Final = re.compile(r"[0-9]+")
+DIGIT: Final = "0"  # it stands for a number in a skeleton
+# Of braces and of quotes at the end something may be told; what works with skeletons has characters of its own.
+_TOLD: Final = re.compile("[$][{[]|['\"]$|[\ue000-\uf8ff]")
+
+
+class Nested(Pieces):
+    """What such a text is made of.
+
+    `formula` is what resolving makes of the skeleton, and `names` the variables that it reads, once somebody asks.
+    """
+
+    __slots__ = ("formula", "names", "numbers", "skeleton", "text")
+
+    pieces = ()
+    variables = None
+    beside = None
+    text: str
+    skeleton: str
+    numbers: tuple[str, ...]
+    formula: Any
+    names: tuple[str, ...] | None
+
+    def __init__(self, text: str, skeleton: str, numbers: tuple[str, ...]) -> None:
+        self.text = text
+        self.skeleton = skeleton
+        self.numbers = numbers
+        self.formula = None
+
+    __setattr__ = object.__setattr__
+
+    def placed(self, whole: Span) -> tuple[Part, ...]:
+        """Return the parts of a text that stands at a place."""
+        shape = known_shape(self.text)
+        assert shape is not None  # noqa: S101 - as that of its skeleton
+        return placed_parts(shape, stretches(whole))
+
+
+def known_shape(text: str) -> Shape | None:
+    """Return what a short text looks like of which there is nothing to tell; None where there is, or may be."""
+    return known_template(text, by_itself)
+
+
+def nested(text: str) -> Nested | None:
+    """Return what a text that stands in a file as it is read is made of; None where that takes a closer look."""
+    if len(text) > SHORT or _TOLD.search(text):
+        return None
+    numbers = tuple(_DIGITS.findall(text))
+    skeleton = _DIGITS.sub(DIGIT, text) if numbers else text
+    return Nested(text, skeleton, numbers) if _is_sound(skeleton) else None
+
+
+@lru_cache(maxsize=256)
+def _is_sound(skeleton: str) -> bool:
+    """Return whether there is nothing to tell of a text, in which there is a call."""
+    shape = None if BARE.search(skeleton) else known_shape(skeleton)
+    return shape is not None and any(part.arguments is not None for part in shape.parts)
