@@ -27,7 +27,8 @@ from orchestra.values import ParameterValue
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
-    from orchestra.plan.passed_on import Content, Part
+    from orchestra.plan.layers import Part
+    from orchestra.plan.passed_on import Content
     from orchestra.resolve.model import (
         ParameterSource,
         Resolved,
@@ -71,20 +72,21 @@ def parameters_of(
     settings = settings_of(sections.for_node(process, own, full), full)
     overrides = settings_of(sections.given_to(process), full)
     _report(settings, overrides, problems)
-    every = {**settings, **overrides}
-
-    def written() -> dict[str, tuple[Candidate, ...]]:
-        known = _origins(process, whole=whole)
-        return {
-            name: candidates.of_parameter(settings.get(name), overrides.get(name), known) for name in every
-        }
-
     return Parameters(
-        {name: setting.value for name, setting in every.items() if setting.value is not None},
-        written,
+        {name: item.value for name, item in {**settings, **overrides}.items() if item.value is not None},
+        lambda: _candidates(settings, overrides, _origins(process, whole=whole)),
         sections.passed_on(process, own) if whole else None,
         is_passed,
     )
+
+
+def _candidates(
+    settings: dict[str, Setting], overrides: dict[str, Setting], known: candidates.Origins
+) -> dict[str, tuple[Candidate, ...]]:
+    return {
+        name: candidates.of_parameter(settings.get(name), overrides.get(name), known)
+        for name in {**settings, **overrides}
+    }
 
 
 _NONE: Final = Parameters()
@@ -105,10 +107,9 @@ def _plain(
     values = None if FileParameters in map(type, parameters) else _inline_once(parameters)
     passed: Content | None = None
     if values is None:
-        found = _each_once(parameters, own, full, sections)
-        if found is None:
+        values = sections.layers.values(parameters, own, full)
+        if values is None:
             return None
-        values = _values(found)
         if whole:
             passed = sections.passed_on(process, own)
     elif whole and own == EVERY_NODE:
@@ -116,7 +117,9 @@ def _plain(
 
     def written() -> dict[str, tuple[Candidate, ...]]:
         known = _origins(process, whole=whole)
-        found = _each_once(parameters, own, full, sections) or {}
+        found = _each_once(parameters, own, full, sections)
+        if found is None:
+            return _candidates(settings_of(sections.for_node(process, own, full), full), {}, known)
         return {
             name: told
             for pattern, sources in found.items()
@@ -168,23 +171,12 @@ def _each_once(
             continue
         if full is None:
             return None
-        for part in sections.parts(source, full):  # type: ignore[arg-type]  # the other kind of source
-            if part is None or not taken.isdisjoint(part.names):
+        for part in sections.layers.parts(source, full):
+            if part.values is None or not taken.isdisjoint(part.names):
                 return None
             taken.update(part.names)
             found.setdefault(part.section.pattern, []).append(part)
     return found
-
-
-def _values(found: dict[str, list[InlineParameter | Part]]) -> dict[str, ParameterValue]:
-    values: dict[str, ParameterValue] = {}
-    for sources in found.values():
-        for source in sources:
-            if type(source) is not InlineParameter:
-                values.update(source.values)  # type: ignore[union-attr]  # the other kind
-            elif source.value is not None:
-                values[source.name] = source.value
-    return values
 
 
 def _told(

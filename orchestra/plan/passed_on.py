@@ -6,12 +6,12 @@ nodes would be passed on a thousand times else, and a change of one section woul
 
 from __future__ import annotations
 
-from functools import partial
-from typing import TYPE_CHECKING, NamedTuple
+from functools import cached_property, partial
+from typing import TYPE_CHECKING
 
 from orchestra.plan.ids import node_name
 from orchestra.plan.parameter_file import line, with_lines
-from orchestra.resolve.model import InlineParameter
+from orchestra.resolve.model import FileParameters, InlineParameter
 from orchestra.resolve.rcl.indexed import Indexed, absolute
 from orchestra.resolve.rcl.sections import Entry, Section, entry
 from orchestra.resolve.rcl.table import alone, flat, tabulated
@@ -20,23 +20,15 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Container, Iterable, Sequence
     from typing import TypeAlias
 
+    from orchestra.plan.layers import Layers
     from orchestra.plan.model import ParameterFile
-    from orchestra.resolve.model import FileParameters, Resolved, ResolvedComponent, ResolvedProcess
-    from orchestra.values import ParameterValue
+    from orchestra.resolve.model import Resolved, ResolvedComponent, ResolvedProcess
 
     # Of a file that is passed on: the text, or what makes it when somebody asks for it.
     Content: TypeAlias = "str | Callable[[ParameterFile], str]"
     _Block: TypeAlias = "tuple[str, Collection[str], list[str] | None]"
 
 EVERY_NODE = "/**"
-
-
-class Part(NamedTuple):
-    """A section of a file in which nothing is in the way of anything: its values by name, and all names it takes."""
-
-    section: Section
-    values: dict[str, ParameterValue]
-    names: Collection[str]
 
 
 class Sections:
@@ -49,8 +41,6 @@ class Sections:
         self._nodes = nodes
         self._files: dict[int, Indexed] = {}
         self._others: dict[int, _Others] = {}
-        self._parts: dict[int, Part | None] = {}
-        self._shared: dict[int, Sequence[Part | None]] = {}
         self._passed_on: dict[tuple[object, ...], str] = {}
         # By identities: entries and sections are kept, so that no others get theirs.
         self._lines: dict[tuple[str, int], tuple[Entry, str]] = {}
@@ -73,26 +63,13 @@ class Sections:
         """Return the sections of a file that are for a node."""
         return self._matching(source.sections, full)
 
-    def parts(self, source: FileParameters, full: str) -> Sequence[Part | None]:
-        """Return the sections of a file that are for a node, with what they set; None for one that is not so plain."""
-        index = self._index(source.sections)
-        if not index.for_all:
-            return [self._part(section) for section in index.matching(full)]
-        known = self._shared.get(id(source.sections))
-        if known is None:
-            known = self._shared[id(source.sections)] = [self._part(section) for section in source.sections]
-        return known
+    @cached_property
+    def layers(self) -> Layers:
+        """What these come to in nodes where it is plain."""
+        # Here, because many plans have no files.
+        from orchestra.plan.layers import Layers  # noqa: PLC0415
 
-    def _part(self, section: Section) -> Part | None:
-        key = id(section)
-        if key in self._parts:
-            return self._parts[key]
-        entries = alone(section)
-        values = entries and {
-            name: entry.value for name, entry in entries[0].items() if entry.value is not None
-        }
-        known = self._parts[key] = entries and Part(section, values or {}, entries[1])
-        return known
+        return Layers(self._index, partial(_section, own=EVERY_NODE))
 
     def given_to(self, node: ResolvedProcess | ResolvedComponent) -> list[Section]:
         """Return the sections of the command line that are for a node."""
@@ -112,8 +89,12 @@ class Sections:
         if not known and any(type(item) is InlineParameter and item.value is not None for item in sources):
             # No other node has these, and there is something in it.
             return partial(self._content, sources, own, name, known)
+        # Where nothing is for it alone, a node is as one whose full name is known.
+        unlike = not known and (
+            name is None or self.given or any(self._is_named(name, item) for item in sources)
+        )
         key = (
-            known or name,
+            name if unlike else True,
             *[id(item if isinstance(item, InlineParameter) else item.sections) for item in sources],
         )
         if key not in self._passed_on:
@@ -205,10 +186,18 @@ class Sections:
         """Return the sections that are passed on of a file, or of the command line."""
         if name is None:
             return sections
-        if id(sections) not in self._others:
-            self._others[id(sections)] = _Others(sections, self._nodes)
-        others = self._others[id(sections)]
+        others = self._others_of(sections)
         return others.sections if known else others.with_those_of(name)
+
+    def _is_named(self, name: str, source: InlineParameter | FileParameters) -> bool:
+        """Return whether a file has a section that is for a node of this name alone."""
+        return type(source) is FileParameters and name in self._others_of(source.sections).named
+
+    def _others_of(self, sections: tuple[Section, ...]) -> _Others:
+        others = self._others.get(id(sections))
+        if others is None:
+            others = self._others[id(sections)] = _Others(sections, self._nodes)
+        return others
 
     def _index(self, sections: tuple[Section, ...]) -> Indexed:
         index = self._files.get(id(sections))
@@ -227,16 +216,16 @@ class _Others:
     def __init__(self, every: Sequence[Section], nodes: Container[str | None]) -> None:
         self._every = every
         self._places: list[int] = []
-        self._named: dict[str, list[int]] = {}
+        self.named: dict[str, list[int]] = {}
         for place, section in enumerate(every):
             full = absolute(section.pattern)
-            places = self._named.setdefault(full.rpartition("/")[2], []) if full in nodes else self._places
+            places = self.named.setdefault(full.rpartition("/")[2], []) if full in nodes else self._places
             places.append(place)
         self.sections = [every[place] for place in self._places]
 
     def with_those_of(self, name: str) -> Sequence[Section]:
         """Return also those for nodes of a name, in order: one whose namespace is not known may be any of them."""
-        own = self._named.get(name)
+        own = self.named.get(name)
         return self.sections if own is None else [self._every[place] for place in sorted(self._places + own)]
 
 

@@ -16,7 +16,7 @@ from orchestra.resolve.rcl.table import flat, kind_of, tabulated
 from orchestra.values import ParameterValue
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Sequence
 
     from orchestra.location import Location
 
@@ -57,7 +57,11 @@ class Setting:
 
 def effective(sections: Iterable[Section], full_name: str) -> dict[str, Setting]:
     """Return the parameters of the node by name, given all sections in the order of its command line."""
-    matching = [section for section in sections if matches(section.pattern, full_name)]
+    return settled([section for section in sections if matches(section.pattern, full_name)])
+
+
+def settled(matching: Sequence[Section]) -> dict[str, Setting]:
+    """Return the same of sections all of which are for the node."""
     winners: dict[str, tuple[str, Entry | None]] = {}
     plain = flat(matching)
     if plain is not None:
