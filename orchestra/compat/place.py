@@ -146,10 +146,10 @@ class Arguments(Matched):
         return Instructions(self.place._code)
 
     def span(self, group: Any) -> Span:
-        """Return the place of an argument, or of what it holds, by its path."""
+        """Return the place of an argument, or of what it holds, by its path; of all of the call without one."""
         span = self._spans.get(group)
         if span is None:
-            span = self._spans[group] = argument(self.place, group)
+            span = self._spans[group] = argument(self.place, group) if group else self.place.span
         return span
 
 

@@ -96,9 +96,9 @@ class Code:
         return self._levels[level]
 
     def at(self, path: tuple[Way, ...]) -> str:
-        """Return the variable that has the place of an argument, or of what it holds."""
+        """Return the variable that has what is beside the fields of what stands at the place of an argument."""
         name = self.new(1)[0]
-        self.making.append(f"{name} = span({self.constant(path)})")
+        self.making.append(f"{name} = standing_at(call, {self.constant(path)})")
         return name
 
     def leaf(self, var: str) -> Leaf:
@@ -145,7 +145,7 @@ class Code:
         making = "\n ".join([f"{leaves} = leaves" if leaves else "", *self.making])
         text = (
             f"def take(given, call):\n try:\n  {taking}\n except unusual: return None\n return ({leaves})\n"
-            f"def make(leaves, call):\n place, span = call.place, call.span\n {making}\n"
+            f"def make(leaves, call):\n place = call.place\n {making}\n"
             f" return nothing | {{{', '.join(fields)}}}\n"
         )
         exec(compile(text, _WRITTEN, "exec"), self._known)  # noqa: S102 - names that are made here

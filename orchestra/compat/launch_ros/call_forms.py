@@ -20,6 +20,7 @@ from orchestra.compat.launch_ros.plain_texts import (
     entity,
     left,
     plain_text,
+    standing_at,
 )
 from orchestra.compat.place import argument
 from orchestra.description.parts import Param, Remap
@@ -103,7 +104,7 @@ class _Reader:
                 own, part = self._entries(item_var, item, path)
             else:
                 own, file = self._text(1, item_var, item, path)
-                part = _param({"from_": file}, f"span({self._code.constant(path)})")
+                part = _param({"from_": file}, f"standing_at(call, {self._code.constant(path)})")
             skeleton.append(own)
             made.append(part)
         return skeleton, f"({''.join(f'{item}, ' for item in made if item)})"
@@ -111,7 +112,7 @@ class _Reader:
     def remaps(self, var: str, value: list[Any], name: str) -> _Read:
         """Read a list of pairs."""
         skeleton, made = [], []
-        span = self._code.at((name,)) if value else ""
+        beside = self._code.at((name,)) if value else ""
         for index, (rule_var, rule) in enumerate(self._code.items(0, var, value)):
             sides = [
                 self._text(2, side_var, side, (name, index, number))
@@ -119,7 +120,7 @@ class _Reader:
             ]
             skeleton.append(tuple([side for side, _ in sides]))
             (_, from_), (_, to) = sides
-            made.append(f"entity(Remap, {{'from_': {from_}, 'to': {to}}}, {span})")
+            made.append(f"entity(Remap, {{'from_': {from_}, 'to': {to}}}, {beside})")
         return skeleton, f"({''.join(f'{item}, ' for item in made)})"
 
     def words(self, var: str, value: list[Any], name: str) -> _Read:
@@ -152,12 +153,12 @@ class _Reader:
         inner = self._code.level(2)
         inner.exact.append(f"*{var}")
         inner.types += [str] * len(items)
-        span = self._code.at(path) if items else ""
+        beside = self._code.at(path) if items else ""
         skeleton, made_of = {}, []
         for item_var, (key, value) in zip(names, items.items(), strict=True):
             skeleton[key], made = self._value(2, item_var, value, (*path, key))
             called = f"words({self._code.constant(key)}, False, call, {self._code.constant(path)})"
-            made_of.append(_param({"name": called, "value": made}, span))
+            made_of.append(_param({"name": called, "value": made}, beside))
         return skeleton, ", ".join(made_of)
 
     def _value(self, level: int, var: str, value: Any, path: _Path) -> _Read:
@@ -259,10 +260,10 @@ def _is_mixed(value: Any) -> bool:
     )
 
 
-def _param(written: dict[str, str], span: str) -> str:
+def _param(written: dict[str, str], beside: str) -> str:
     """Return what makes a parameter of these expressions."""
     fields = ", ".join(f"{name!r}: {written.get(name, repr(value))}" for name, value in NO_PARAMETER.items())
-    return f"entity(Param, {{{fields}}}, {span})"
+    return f"entity(Param, {{{fields}}}, {beside})"
 
 
 _SERIES: Final = frozenset({list, tuple})
@@ -281,6 +282,7 @@ _NAMES: Final[dict[str, Any]] = {
     "perform": PERFORM,
     "plain_text": plain_text,
     "scalars": SCALARS,
+    "standing_at": standing_at,
     "sure": _sure,
     "template": matched_template,
     "unusual": (KeyError, UnusualError, ValueError),

@@ -21,12 +21,12 @@ class Made:
     `resolved` and `prepared` give what a visit has come to, where that is told; `condition` is that of a component.
     """
 
-    __slots__ = ("_call", "_fields", "_form", "_kept", "condition", "prepared", "resolved")
+    __slots__ = ("_fields", "_form", "_kept", "call", "condition", "prepared", "resolved")
 
     condition: Any
 
     def __init__(self, call: Arguments, kept: Any, fields: dict[str, Any] | None, form: Form | None) -> None:
-        self._call = call
+        self.call = call
         self._kept = kept
         self._fields = fields
         self._form = form
@@ -51,12 +51,12 @@ class Made:
         fields = self._fields
         if fields is None and self._form is not None:
             self._fields = _GONE
-            return self._form.make(self._kept, self._call)
+            return self._form.make(self._kept, self.call)
         if fields:
             self._fields = _GONE
             return fields
         fields = usual.unwritten.copy()
-        return None if read(self.given, self._call, usual.readers, fields) is None else fields
+        return None if read(self.given, self.call, usual.readers, fields) is None else fields
 
 
 class Usual:

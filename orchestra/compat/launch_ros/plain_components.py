@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, Final
 from orchestra.compat.building import condition_fields
 from orchestra.compat.launch_ros.made_later import Made, MadeLater, Usual
 from orchestra.compat.launch_ros.plain_parameters import parameters, remaps
-from orchestra.compat.launch_ros.plain_texts import entity, left
+from orchestra.compat.launch_ros.plain_texts import entity, left, standing_at
 from orchestra.compat.place import Place
 from orchestra.description.components import ComposableNode
 
@@ -54,7 +54,7 @@ class PlainComponent(MadeLater):
         if fields is None:
             return None
         values = fields | {_CONDITIONS[word]: text for word, text in said.items()}
-        model: ComposableNode = entity(ComposableNode, values, self._place.span, self)
+        model: ComposableNode = entity(ComposableNode, values, standing_at(made.call, (), self))
         return model
 
 

@@ -23,6 +23,7 @@ from orchestra.compat.launch_ros.plain_texts import (
     entity,
     left,
     plain_text,
+    standing_at,
     word,
 )
 from orchestra.compat.place import Arguments, Key, Place, ValueOf
@@ -117,11 +118,11 @@ def _model(made: Made, place: Place, common: Mapping[str, Any]) -> Model | None:
         return None
     model: Model
     if len(common) == 1:
-        model = entity(NodeModel, fields, place.span, origin)
+        model = entity(NodeModel, fields, standing_at(made.call, (), origin))
         return model
     condition = unchecked(common)
     if condition is not None:
-        model = entity(NodeModel, {**fields, **condition}, place.span, origin)
+        model = entity(NodeModel, {**fields, **condition}, standing_at(made.call, (), origin))
         return model
     said = {name: value for name, value in fields.items() if value is not None}
     return NodeModel.at(place.span, **said, **common)
@@ -180,7 +181,7 @@ def _environment(
 ) -> None:
     if type(value) is not dict:
         raise UnusualError
-    span, keys, texts = call.span((name,)), Arguments(call.place), Arguments(call.place)
+    beside, keys, texts = standing_at(call, (name,)), Arguments(call.place), Arguments(call.place)
     fields["env"] = tuple(
         [
             entity(
@@ -189,7 +190,7 @@ def _environment(
                     "name": plain_text(key, keys, (name, Key(index))),
                     "value": plain_text(text, texts, (name, ValueOf(index))),
                 },
-                span,
+                beside,
             )
             for index, (key, text) in enumerate(value.items())
         ]

@@ -10,6 +10,7 @@ from orchestra.compat.launch_ros.plain_texts import (
     copied,
     entity,
     plain_text,
+    standing_at,
     whole_text,
 )
 from orchestra.compat.place import argument
@@ -21,7 +22,6 @@ if TYPE_CHECKING:
     from orchestra.compat.launch_ros.plain_texts import Reader
     from orchestra.compat.place import Arguments, Way
     from orchestra.description.text import Part
-    from orchestra.location import Span
 
 
 def parameters(field: str) -> Reader:
@@ -38,7 +38,7 @@ def parameters(field: str) -> Reader:
                 own.append(entries(item, ((), "", ""), call, path, made))
             else:
                 file = plain_text(item, call, path)
-                made.append(_param({"from_": file}, call.span(path)))
+                made.append(_param({"from_": file}, standing_at(call, path)))
                 own.append(copied(item))
         fields[field] = tuple(made)
         kept[name] = own
@@ -50,7 +50,7 @@ def remaps(name: str, value: Any, call: Arguments, fields: dict[str, Any], kept:
     """Read a list of rules, of which each has two sides."""
     if type(value) is not list:
         raise UnusualError
-    span = call.span((name,))
+    beside = standing_at(call, (name,))
     made, own = [], []
     for index, rule in enumerate(value):
         if type(rule) is not tuple or len(rule) != _SIDES:
@@ -61,7 +61,7 @@ def remaps(name: str, value: Any, call: Arguments, fields: dict[str, Any], kept:
         else:
             from_ = plain_text(source, call, (name, index, 0))
         to = plain_text(target, call, (name, index, 1))
-        made.append(entity(Remap, {"from_": from_, "to": to}, span))
+        made.append(entity(Remap, {"from_": from_, "to": to}, beside))
         own.append(rule if type(source) is type(target) is str else copied(rule))
     fields["remap"] = tuple(made)
     kept[name] = own
@@ -76,7 +76,7 @@ def entries(
 ) -> dict[Any, Any]:
     """Add the parameters of a dictionary, whose names begin with what is around it; return a copy of it."""
     before, written, known = around
-    own, span = {}, call.span(path)
+    own, span, beside = {}, call.span(path), standing_at(call, path)
     for key, value in items.items():
         if type(key) is not str:
             raise UnusualError
@@ -94,12 +94,12 @@ def entries(
         else:
             called = matched_words(key, False, call, path)  # type: ignore[arg-type] # its groups are paths
         read, own[key] = value_of(value, call, (*path, name))
-        made.append(_param({"name": called, "value": read}, span))
+        made.append(_param({"name": called, "value": read}, beside))
     return own
 
 
-def _param(fields: dict[str, Any], span: Span) -> Param:
-    made: Param = entity(Param, NO_PARAMETER | fields, span)
+def _param(fields: dict[str, Any], beside: dict[str, Any]) -> Param:
+    made: Param = entity(Param, NO_PARAMETER | fields, beside)
     return made
 
 

@@ -150,12 +150,17 @@ def copied(value: Any) -> Any:
     return tuple([copied(item) for item in value]) if kind is tuple else value
 
 
-def entity(kind: type[Any], values: dict[str, Any], span: Span, origin: Any = None) -> Any:
-    """Return what `Entity.made` makes of all of the fields."""
+def entity(kind: type[Any], values: dict[str, Any], beside: dict[str, Any]) -> Any:
+    """Return what `Entity.made` makes of all of the fields. What is `beside` may be so for several parts."""
     made = _new(kind)
     _set_values(made, values)
-    _set_beside(made, {"span": span, "origin": origin})
+    _set_beside(made, beside)
     return made
+
+
+def standing_at(call: Arguments, path: tuple[Way, ...], origin: Any = None) -> dict[str, Any]:
+    """Return what is beside the fields of what an argument of a call holds, or of the call, without a path."""
+    return {"span": None, "at": (call, path), "origin": origin}
 
 
 # Keywords that say nothing by None.
