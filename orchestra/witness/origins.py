@@ -15,7 +15,28 @@ if TYPE_CHECKING:
     from types import FrameType
 
 OURS: Final = os.path.dirname(os.path.dirname(os.path.abspath(__file__))) + os.sep
-_PATHS: Final = sysconfig.get_paths()
+
+
+def _folders() -> dict[str, str]:
+    """Return what `sysconfig.get_paths` tells, which reads how Python was built first: it takes 1 ms."""
+    known = {
+        "base": sys.prefix,
+        "platbase": sys.exec_prefix,
+        "installed_base": sys.base_prefix,
+        "installed_platbase": sys.base_exec_prefix,
+        "platlibdir": sys.platlibdir,
+        "py_version_short": f"{sys.version_info.major}.{sys.version_info.minor}",
+    }
+    try:
+        return {
+            name: os.path.normpath(sysconfig.get_path(name, expand=False).format(**known))
+            for name in ("stdlib", "platstdlib", "purelib", "platlib")
+        }
+    except KeyError:  # newer ones say more of themselves
+        return sysconfig.get_paths()
+
+
+_PATHS: Final = _folders()
 PYTHON: Final = tuple(
     os.path.join(path, "")
     for name in ("stdlib", "platstdlib")

@@ -30,13 +30,15 @@ _BEGINNING = 200
 class Made:
     """A plan, what it is of, the launch file (None for a saved plan), and the files that code has written for it.
 
-    `files` are by their path in the plan, below `${run}`.
+    `files` are by their path in the plan, below `${run}`. `launch` is what else there is of the plan: to take it apart
+    takes time that a command which ends soon need not spend.
     """
 
     plan: Plan
     label: str
     file: str | None
     files: dict[str, bytes] = field(default_factory=dict)
+    launch: pipeline.Launch | None = field(default=None, compare=False, repr=False)
 
 
 def made(options: Namespace) -> Made:
@@ -69,7 +71,7 @@ def from_file(
         if options.strict and inputs.has_warnings(launch.plan):
             raise DescriptionError(inputs.as_errors(launch.plan.problems))
         files = written(launch.files.folder) if launch.files.used else {}
-        return Made(launch.plan, " ".join([displayed(file), *words]), file, files)
+        return Made(launch.plan, " ".join([displayed(file), *words]), file, files, launch)
 
 
 def written(folder: str | None) -> dict[str, bytes]:
