@@ -21,8 +21,13 @@ _BESIDE: Final = _WIDTH * " "
 # Characters of a value: the description of a robot has thousands, and JSON shows all of them.
 _LONGEST: Final = 400
 _encoded: Final = json.JSONEncoder(ensure_ascii=False).encode
-# What few processes have, asked for in one call.
-_rare: Final = attrgetter("depends_on", "ready", "alive", "restart", "stop", "limits", "stdin", "lifecycle")
+_path: Final = attrgetter("path")
+# What many processes have, and then what few have, asked for in one call.
+_frequent: Final = attrgetter(
+    *("command", "shell", "parameters", "parameter_files", "remappings"),
+    *("environment", "inherit_environment"),
+    *("depends_on", "ready", "alive", "restart", "stop", "limits", "stdin", "lifecycle"),
+)
 
 
 class Details:
@@ -33,30 +38,40 @@ class Details:
 
     def of(self, process: Process, margin: str) -> str:
         """Return the lines, each behind the margin; a setting that has nothing to say has no line."""
-        command = " ".join(process.command if process.shell else map(self._word, process.command))
-        told = (f"sh: {command}" if process.shell else command).replace("\n", f"\n{margin}{_BESIDE}")
+        words, shell, values, files, rules, environment, inherits, *others = _frequent(process)
+        beside = f"\n{margin}{_BESIDE}"
+        command = f"sh: {' '.join(words)}" if shell else " ".join(map(self._word, words))
+        told = command.replace("\n", beside) if "\n" in command else command
         text = f"{margin}command     {told}\n"
         if process.cwd:
             text += labelled("folder", [process.cwd], margin)
-        if process.environment or not process.inherit_environment:
+        if environment or not inherits:
             text += labelled("environment", _environment(process), margin)
-        if process.parameters:
-            values = [
-                f"{name}: {told if len(told := scalar(value)) <= _LONGEST else _shortened(told)}"
-                for name, value in process.parameters.items()
-            ]
-            text += labelled("parameters", values, margin)
-        if process.parameter_files:
-            text += labelled("files", [file.path for file in process.parameter_files], margin)
-        if process.remappings:
-            text += labelled("remaps", [f"{old} -> {new}" for old, new in process.remappings], margin)
+        if values:
+            text += f"{margin}parameters  {beside.join(_parameters(values))}\n"
+        if files:
+            text += f"{margin}files       {beside.join(map(_path, files))}\n"
+        if rules:
+            text += f"{margin}remaps      {beside.join(map(' -> '.join, rules))}\n"
         if process.output:
             text += labelled("output", [_output(process.output)], margin)
-        if any(_rare(process)):
+        if any(others):
             from orchestra.plan.render.conduct import conduct  # noqa: PLC0415 - as few plans need it
 
             text += "".join(labelled(label, values, margin) for label, values in conduct(process))
         return f"{text}{margin}required    the run ends with it\n" if process.required else text
+
+
+def _parameters(values: dict[str, ParameterValue]) -> list[str]:
+    """Return a line for each parameter."""
+    write = _WRITE.get
+    lines = [f"{name}: {(write(type(value)) or _encoded)(value)}" for name, value in values.items()]
+    if max(map(len, lines)) <= _LONGEST:
+        return lines
+    return [
+        f"{name}: {told if len(told := scalar(value)) <= _LONGEST else _shortened(told)}"
+        for name, value in values.items()
+    ]
 
 
 class _Quoted(dict[str, str]):

@@ -7,7 +7,9 @@ The same plan always gives the same text.
 from __future__ import annotations
 
 import shlex
-from typing import TYPE_CHECKING
+from collections import Counter
+from operator import attrgetter
+from typing import TYPE_CHECKING, Final
 
 from orchestra.dataclass import dataclass
 from orchestra.fields import field
@@ -24,18 +26,21 @@ if TYPE_CHECKING:
     from orchestra.plan.render.setting import Additions, Paint
 
 _INDENT = "  "
+_CHAIN: Final = attrgetter("included_from")
+_PROGRAM: Final = attrgetter("kind", "package", "executable")
 
 
 def render(plan: Plan, setting: Setting = Setting(), /) -> str:  # noqa: B008 - it is frozen
     """Return the plan as text."""
     paint = setting.paint
+    places = [str(process.location.span) for process in plan.processes]
     elsewhere = [component for component in plan.components if component.process is None]
     sections = [
         _heading(plan, paint),
         _section("host", _host(setting.additions), paint),
         _section("arguments", _arguments([item for item in plan.arguments if not item.given]), paint),
-        _section("includes", _includes(plan, paint), paint),
-        _titled("processes", _processes(plan, paint), paint),
+        _section("includes", _includes(plan, places, paint), paint),
+        _titled("processes", _processes(plan, places, paint), paint),
         _section("components", (_component(item, "") for item in elsewhere), paint),
         _section("triggers", _triggers(plan), paint),
         _section("skipped", map(_skipped, plan.skipped), paint),
@@ -97,10 +102,10 @@ class _Include:
     below: dict[tuple[str, Span], _Include] = field(default_factory=dict)
 
 
-def _includes(plan: Plan, paint: Paint) -> Iterator[str]:
+def _includes(plan: Plan, places: Sequence[str], paint: Paint) -> Iterator[str]:
     """Yield the files that are included, below those that include them, in the order in which they are come upon."""
     root = _Include()
-    for location, count in _alike(plan):
+    for location, count in _alike(plan, places):
         here = root
         for step in _steps(location):
             here = here.below.setdefault(step, _Include())
@@ -108,20 +113,17 @@ def _includes(plan: Plan, paint: Paint) -> Iterator[str]:
     yield from _included(root, paint)
 
 
-def _alike(plan: Plan) -> Iterator[tuple[Location, int]]:
+def _alike(plan: Plan, places: Sequence[str]) -> Iterator[tuple[Location, int]]:
     """Yield one place of each file that was included in one way, and how many processes and components are there."""
-    counts: dict[tuple[int, str], int] = {}
-    first: dict[tuple[int, str], Location] = {}
-    places = [process.location for process in plan.processes]
-    places += [component.location for component in plan.components]
-    for location in places:
-        chain = location.included_from
-        if chain:
-            key = id(chain), location.span.file
-            counts[key] = counts.get(key, 0) + 1
-            first.setdefault(key, location)
-    for key, location in first.items():
-        yield location, counts[key]
+    locations = [process.location for process in plan.processes]
+    locations += [component.location for component in plan.components]
+    told = [*places, *(str(component.location.span) for component in plan.components)]
+    files = [place.rsplit(":", 2)[0] for place in told]
+    keys = [*zip(map(id, map(_CHAIN, locations)), files, strict=True)]
+    first = dict(zip(reversed(keys), reversed(locations), strict=True))
+    for key, count in Counter(keys).items():
+        if first[key].included_from:
+            yield first[key], count
 
 
 def _steps(location: Location) -> Iterator[tuple[str, Span]]:
@@ -140,24 +142,24 @@ def _included(include: _Include, paint: Paint) -> Iterator[str]:
 
 @dataclass(slots=True)
 class _Namespace:
-    """A namespace of the tree: what is in it, and the namespaces below it, in plan order."""
+    """A namespace of the tree: what is in it, with its places, and the namespaces below it, in plan order."""
 
-    processes: list[Process] = field(default_factory=list)
+    processes: list[tuple[Process, str]] = field(default_factory=list)
     below: dict[str, _Namespace] = field(default_factory=dict)
 
 
-def _processes(plan: Plan, paint: Paint) -> str:
+def _processes(plan: Plan, places: Sequence[str], paint: Paint) -> str:
     """Return each process with its lines, those of namespaces below the titles of these."""
     root, known = _Namespace(), dict[str, _Namespace]()
     telling, outside = _Telling(plan, paint), list[str]()
-    for process in plan.processes:
-        name = process.namespace
+    for pair in zip(plan.processes, places, strict=True):
+        name = pair[0].namespace
         if name is None:
-            outside.append(telling.process(process, _INDENT))
+            outside.append(telling.process(*pair, _INDENT))
             continue
         if name not in known:
             known[name] = _at(root, name)
-        known[name].processes.append(process)
+        known[name].processes.append(pair)
     inside = telling.branch("/", root, _INDENT) if root.processes or root.below else ""
     return "".join([*outside, inside])
 
@@ -176,6 +178,7 @@ class _Telling:
     def __init__(self, plan: Plan, paint: Paint) -> None:
         self._paint = paint
         self._details = Details()
+        self._kinds: dict[tuple[str | None, ...], str] = {}
         self._held: dict[str, list[str]] = {}
         for component in plan.components:
             if component.process is not None:
@@ -186,17 +189,21 @@ class _Telling:
         """Return a namespace and all that is in it, behind a margin."""
         inner = margin + _INDENT
         parts = [f"{margin}{self._paint('strong', title)}\n"]
-        parts += [self.process(process, inner) for process in namespace.processes]
+        parts += [self.process(process, place, inner) for process, place in namespace.processes]
         parts += [self.branch(f"{token}/", below, inner) for token, below in namespace.below.items()]
         return "".join(parts)
 
-    def process(self, process: Process, margin: str) -> str:
-        """Return what a process is, and below it what matters of it."""
-        told = self._paint("faint", f"({process_kind(process)}, {process.location})")
+    def process(self, process: Process, place: str, margin: str) -> str:
+        """Return what a process is, and where, and below it what matters of it."""
+        program = _PROGRAM(process)
+        kind = self._kinds.get(program)
+        if kind is None:
+            kind = self._kinds[program] = process_kind(process)
+        told = self._paint("faint", f"({kind}, {place})")
         inner = margin + _INDENT
-        held = self._held.get(process.id)
-        components = labelled("components", held, inner) if held else ""
         details = self._details.of(process, inner)
+        held = self._held.get(process.id) if self._held else None
+        components = labelled("components", held, inner) if held else ""
         return f"{margin}{self._paint('strong', process.id)}  {told}\n{details}{components}"
 
 
