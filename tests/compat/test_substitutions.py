@@ -437,6 +437,22 @@ def test_what_users_perform_is_theirs_alone(context: LaunchContext) -> None:
     assert isinstance(template(Named("a"), _SPAN).parts[0], Call)
 
 
+class Prefixed(LaunchConfiguration):
+    """Has another name than the one that it is given."""
+
+    @property
+    def variable_name(self) -> list[Substitution]:
+        return normalized(["prefixed_", *super().variable_name])
+
+
+def test_the_name_that_a_users_class_says_counts(context: LaunchContext) -> None:
+    own = Prefixed("a")
+    assert template(own, _SPAN).raw == "$(var prefixed_a)"
+    context.launch_configurations["prefixed_a"] = "b"
+    assert own.perform(context) == "b"
+    assert own.describe() == "LaunchConfig('prefixed_' + 'a')"
+
+
 def test_everything_is_exported_and_nothing_heavy_imported() -> None:
     code = (
         "import sys; from orchestra.compat.launch import substitutions as s;"

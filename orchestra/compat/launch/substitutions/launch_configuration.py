@@ -43,10 +43,14 @@ class LaunchConfiguration(ParsedSubstitution):
 
     def describe(self) -> str:
         """Return the name and what it is."""
-        return f"LaunchConfig({described(self.__variable_name)})"
+        return f"LaunchConfig({described(self.__own_name())})"
+
+    def __own_name(self) -> list[Substitution]:
+        """Return the name without showing it to anybody; a user's subclass may say another one."""
+        return self.__variable_name if type(self) is LaunchConfiguration else self.variable_name
 
     def _arguments(self) -> Sequence[Sequence[Substitution]]:
-        name = self.__variable_name
+        name = self.__own_name()
         return (name,) if self.__default is None else (name, self.__default)
 
     def _whole(self) -> Template | None:
