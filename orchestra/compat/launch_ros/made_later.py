@@ -13,6 +13,7 @@ if TYPE_CHECKING:
 
     from orchestra.compat.launch_ros.call_code import Form
     from orchestra.compat.launch_ros.plain_texts import Readers
+    from orchestra.description.entity import Entity
 
 
 class Made:
@@ -62,22 +63,28 @@ class Made:
 class Usual:
     """The arguments of one constructor that are of the usual kinds, and the forms of calls that many others have.
 
-    `series` tells of lists by what a form reads them, into which field, and what an empty one is.
+    They become a `model`, of which the fields that are `needed` are not None. `series` tells of lists by what a form
+    reads them, into which field, and what an empty one is.
     """
 
     def __init__(
         self,
+        model: type[Entity],
         readers: Readers,
         series: Mapping[str, tuple[str, str, Any]],
-        unwritten: dict[str, Any],
         needed: tuple[str, ...],
     ) -> None:
+        self.model = model
         self.readers = readers
-        self.unwritten = unwritten
+        self.unwritten = model._unwritten()
         self._series = series
         self._needed = needed
         self._forms: dict[tuple[str, ...], list[Form]] = {}
         self._seen: dict[Any, int] = {}
+
+    def of(self, model: type[Entity], readers: Readers, needed: tuple[str, ...]) -> Usual:
+        """Return those of a constructor that has the same ones and more, which are read by `readers`."""
+        return Usual(model, {**self.readers, **readers}, self._series, needed)
 
     def made(self, given: dict[str, Any], place: Place) -> Made | None:
         """Return what an object is made of that is constructed at a place; None where a keyword is not usual."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any, ClassVar, Final
 
 from orchestra.compat.building import condition_fields
 from orchestra.compat.launch_ros.made_later import Made, MadeLater, Usual
@@ -20,17 +20,18 @@ if TYPE_CHECKING:
 class PlainComponent(MadeLater):
     """What a component is before somebody asks for more than its model: then it is constructed from its arguments.
 
-    That is for the very class that says `_may_be_plain`, which has all of its own in `_place` and `_plain` until then.
+    That is for the very class that says what is `_usual`, which has all of its own in `_place` and `_plain` until then.
     """
 
-    _may_be_plain = False
+    _usual: ClassVar[Usual]
 
     def _taken(self, keywords: dict[str, Any], caller: FrameType) -> bool:
         kind = type(self)
-        if "_may_be_plain" not in vars(kind):
+        usual = vars(kind).get("_usual")
+        if usual is None:
             return False
         place = Place(caller.f_code, caller.f_lasti, kind)
-        made = USUAL.made(keywords, place)
+        made = usual.made(keywords, place)
         if made is None:
             return False
         made.condition = keywords.get("condition")
@@ -72,12 +73,12 @@ _READ: Final[Readers] = {
     "condition": left,
 }
 USUAL: Final = Usual(
+    ComposableNode,
     _READ,
     {
         "parameters": ("params", "param", ()),
         "remappings": ("remaps", "remap", ()),
         "extra_arguments": ("params", "extra_arg", ()),
     },
-    ComposableNode._unwritten(),
     ("pkg", "plugin"),
 )

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 import os
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any, ClassVar, Final
 
 from orchestra.compat.building import unchecked
 from orchestra.compat.launch.actions.execute_local import OVERRIDE
@@ -41,17 +41,18 @@ if TYPE_CHECKING:
 class PlainNode(MadeLater, ExecuteProcess):
     """What a node is before somebody asks for more than its model: then it is constructed from its arguments.
 
-    That is for the very class that says `_may_be_plain`: those of users may look at what the constructor keeps.
+    That is for the very class that says what is `_usual`: those of users may look at what the constructor keeps.
     """
 
-    _may_be_plain = False
+    _usual: ClassVar[Usual]
 
     def _taken(self, keywords: dict[str, Any], caller: FrameType) -> bool:
         kind = type(self)
-        if "_may_be_plain" not in vars(kind) or _says_output(os.environ):
+        usual = vars(kind).get("_usual")
+        if usual is None or _says_output(os.environ):
             return False
         place = Place(caller.f_code, caller.f_lasti, kind)
-        made = USUAL.made(keywords, place)
+        made = usual.made(keywords, place)
         if made is None:
             return False
         condition = keywords.get("condition")
@@ -95,7 +96,7 @@ class PlainNode(MadeLater, ExecuteProcess):
 
     def _to_model(self, common: Mapping[str, Any]) -> Model:
         made = self._plainly()
-        model: Model | None = None if made is None else _model(made, self._place, common)
+        model: Model | None = None if made is None else _model(made, type(self)._usual, self._place, common)
         if model is None:
             if made is not None:
                 self._construct()
@@ -111,21 +112,18 @@ def _says_output(environ: Any) -> bool:
     return OVERRIDE in environ if known is None else _OVERRIDE in known
 
 
-def _model(made: Made, place: Place, common: Mapping[str, Any]) -> Model | None:
+def _model(made: Made, usual: Usual, place: Place, common: Mapping[str, Any]) -> Any:
     """Return the model; `common` are the fields that every action has. None where an argument is usual no more."""
-    origin, fields = common["origin"], made.fields(USUAL)
+    fields = made.fields(usual)
     if fields is None:
         return None
-    model: Model
-    if len(common) == 1:
-        model = entity(NodeModel, fields, standing_at(made.call, (), origin))
-        return model
     condition = unchecked(common)
-    if condition is not None:
-        model = entity(NodeModel, {**fields, **condition}, standing_at(made.call, (), origin))
-        return model
-    said = {name: value for name, value in fields.items() if value is not None}
-    return NodeModel.at(place.span, **said, **common)
+    if condition is None:
+        said = {name: value for name, value in fields.items() if value is not None}
+        return usual.model.at(place.span, **said, **common)
+    if condition:
+        fields |= condition
+    return entity(usual.model, fields, standing_at(made.call, (), common["origin"]))
 
 
 def _prefix(name: str, value: Any, call: Arguments, fields: dict[str, Any], kept: dict[str, Any]) -> None:
@@ -151,13 +149,46 @@ def _words(field: str, *, empty: Any) -> Callable[..., None]:
 
 
 def _flag(name: str, value: Any, call: Arguments, fields: dict[str, Any], kept: dict[str, Any]) -> None:
+    if value is False:
+        fields[name] = plain_text("false", call, (name,))
+    else:
+        known_flag(name, value, call, fields, kept)
+
+
+def known_flag(name: str, value: Any, call: Arguments, fields: dict[str, Any], kept: dict[str, Any]) -> None:
+    """Read a truth value of which nothing is said where it is false."""
     del kept
     if value is True:
         fields[name] = plain_text("true", call, (name,))
     elif value is not False:
         raise UnusualError
-    elif name == "emulate_tty":
-        fields[name] = plain_text("false", call, (name,))
+
+
+def _retries(name: str, value: Any, call: Arguments, fields: dict[str, Any], kept: dict[str, Any]) -> None:
+    del kept
+    if type(value) is not int or value < -1:
+        raise UnusualError
+    if value >= 0:
+        fields[name] = plain_text(repr(value), call, (name,))
+
+
+def _seconds(name: str, value: Any, call: Arguments, fields: dict[str, Any], kept: dict[str, Any]) -> None:
+    """Read a time after which another signal follows, which is a text."""
+    del kept
+    if type(value) is not str or not value.isdecimal() or not value.isascii():
+        raise UnusualError
+    fields[name] = plain_text(value, call, (name,))
+
+
+def _on_exit(name: str, value: Any, call: Arguments, fields: dict[str, Any], kept: dict[str, Any]) -> None:
+    """Read the action that ends the run: nothing else may be done then, and no reason be given."""
+    from orchestra.compat.launch.actions.shutdown_action import Shutdown  # noqa: PLC0415 - few nodes end a run
+
+    ending = value[0] if type(value) is list and len(value) == 1 else value
+    if type(ending) is not Shutdown or ending._says_more:
+        raise UnusualError
+    fields[name] = divisible("shutdown", call.place.span)
+    kept[name] = copied(value)
 
 
 def _delay(name: str, value: Any, call: Arguments, fields: dict[str, Any], kept: dict[str, Any]) -> None:
@@ -216,12 +247,18 @@ _READ: Final[dict[str, Callable[..., None] | str]] = {
     "ros_arguments": _words("ros_args", empty=()),
     "output": _output,
     "emulate_tty": _flag,
-    "respawn": _flag,
+    "respawn": known_flag,
     "respawn_delay": _delay,
+    "respawn_max_retries": _retries,
+    "shell": known_flag,
+    "sigterm_timeout": _seconds,
+    "sigkill_timeout": _seconds,
+    "on_exit": _on_exit,
     "additional_env": _environment,
     "condition": left,
 }
 USUAL: Final = Usual(
+    NodeModel,
     _READ,
     {
         "parameters": ("params", "param", ()),
@@ -229,6 +266,5 @@ USUAL: Final = Usual(
         "arguments": ("words", "args", None),
         "ros_arguments": ("words", "ros_args", ()),
     },
-    NodeModel._unwritten(),
     ("exec",),
 )

@@ -167,7 +167,7 @@ def standing_at(call: Arguments, path: tuple[Way, ...], origin: Any = None) -> d
 _OPTIONAL: Final = frozenset(
     {"package", "name", "namespace", "exec_name", "parameters", "remappings", "arguments", "ros_arguments"}
     | {"output", "prefix", "cwd", "additional_env", "condition", "emulate_tty", "respawn_delay", "on_exit"}
-    | {"extra_arguments"}
+    | {"extra_arguments", "sigterm_timeout", "sigkill_timeout"}
 )
 _SEVERAL: Final = 2
 _SERIES: Final = frozenset({list, tuple})

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from orchestra.compat.launch.actions.emit_event import EmitEvent
 from orchestra.compat.launch.events.shutdown import Shutdown as ShutdownEvent
+from orchestra.compat.refusing import is_lost
 from orchestra.compat.text import normalized, template
 from orchestra.description.actions.shutdown import Shutdown as ShutdownModel
 
@@ -29,6 +30,12 @@ class Shutdown(EmitEvent):
     def _has_reason(self) -> bool:
         """Whether somebody has said why."""
         return template(self.__reason, self._place.span).constant != _NO_REASON
+
+    @property
+    def _says_more(self) -> bool:
+        """Whether anything is said but that the run ends, whenever this is visited."""
+        described = self._is_as_described() and not self._refused and not is_lost(self)
+        return not described or self.condition is not None or self._has_reason
 
     def _to_model(self, common: Mapping[str, Any]) -> Model:
         given = template(self.__reason, self._place.at("reason")) if self._has_reason else None

@@ -5,12 +5,14 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from orchestra.compat.launch_ros.actions.node import Node
+from orchestra.compat.launch_ros.plain_nodes import USUAL, known_flag
 from orchestra.compat.values import scalar
 from orchestra.compat.wrong import WrongRuntime
 from orchestra.description.actions.lifecycle_node import LifecycleNode as LifecycleNodeModel
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
+    from types import FrameType
 
     from orchestra.compat.text import Sub
     from orchestra.description.entity import Action as Model
@@ -22,6 +24,8 @@ class LifecycleNode(Node):
     Raises `RuntimeError` without a name.
     """
 
+    _usual = USUAL.of(LifecycleNodeModel, {"autostart": known_flag}, ("exec", "name"))
+
     def __init__(
         self, *, name: Sub, namespace: Sub | None, autostart: bool | Sub = False, **kwargs: Any
     ) -> None:
@@ -30,6 +34,9 @@ class LifecycleNode(Node):
             raise WrongRuntime(told, path=("name",))
         super().__init__(name=name, namespace=namespace, **kwargs)
         self.__autostart = autostart
+
+    def _taken(self, keywords: dict[str, Any], caller: FrameType) -> bool:
+        return "namespace" in keywords and super()._taken(keywords, caller)
 
     @property
     def node_autostart(self) -> bool | Sub:

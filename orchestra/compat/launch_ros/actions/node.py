@@ -10,7 +10,7 @@ from orchestra.compat.extensions import RUNNING, extension_fields
 from orchestra.compat.launch_ros.actions.node_action_extension import NodeActionExtension
 from orchestra.compat.launch_ros.models import params, remaps
 from orchestra.compat.launch_ros.node_words import parameter_words, rules
-from orchestra.compat.launch_ros.plain_nodes import PlainNode
+from orchestra.compat.launch_ros.plain_nodes import USUAL, PlainNode
 from orchestra.compat.launch_ros.substitutions.executable_in_package import ExecutableInPackage
 from orchestra.compat.launch_ros.utilities.namespace_utils import make_namespace_absolute, prefix_namespace
 from orchestra.compat.launch_ros.utilities.normalize_parameters import normalize_parameters
@@ -49,7 +49,7 @@ class Node(PlainNode):
     is given.
     """
 
-    _may_be_plain = True
+    _usual = USUAL
     _more_keywords = (*RUNNING, "lifecycle", "params_schema")
 
     UNSPECIFIED_NODE_NAME = "<node_name_unspecified>"

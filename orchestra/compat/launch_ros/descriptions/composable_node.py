@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Final, Self
 from orchestra.compat.building import condition_fields
 from orchestra.compat.explanation import told
 from orchestra.compat.launch_ros.models import params, remaps
-from orchestra.compat.launch_ros.plain_components import PlainComponent
+from orchestra.compat.launch_ros.plain_components import USUAL, PlainComponent
 from orchestra.compat.launch_ros.utilities.normalize_parameters import normalize_parameters
 from orchestra.compat.launch_ros.utilities.normalize_remap_rule import normalize_remap_rules
 from orchestra.compat.place import IN_CONSTRUCTOR, here, within
@@ -30,7 +30,7 @@ _COMPONENTS: Final = "composable_node_descriptions"
 class ComposableNode(PlainComponent):
     """A class of a package, loaded into a container as a node. Raises `TypeError` as `Node` does."""
 
-    _may_be_plain = True
+    _usual = USUAL
 
     def __init__(  # noqa: PLR0913 - upstream's signature, and a key of ours
         self,
