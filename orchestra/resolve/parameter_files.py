@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from functools import lru_cache
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Final
 
 from orchestra.description.source import shortened
 from orchestra.description.substitutions import SIGNATURES
@@ -18,6 +18,7 @@ from orchestra.resolve.context import Value
 from orchestra.resolve.model import FileParameters
 from orchestra.resolve.near_paths import near_path
 from orchestra.resolve.paths import beside, existing_file, folder_of
+from orchestra.resolve.plain_parameters import given, named_by
 from orchestra.resolve.rcl.files import read_kept, read_plain_file
 from orchestra.resolve.rcl.sections import included
 from orchestra.resolve.rcl.straight import sections_of
@@ -54,7 +55,8 @@ def file_parameters(
     asked = (value.text if value.text.startswith("/") else _from_here(value.text, run)), plain
     known = None if substitute else run.parameter_files.get(asked)
     if known is not None:  # many nodes are given the same file
-        return _given(known, value, everywhere=everywhere)
+        _keep(known, value, written, run, plain=plain)
+        return given(known, value, everywhere=everywhere)
     path = beside(run.context.file, value.text) if value.text else None
     if value.text.startswith("~/"):
         path = existing_file(value, written, "parameter file", run)
@@ -75,27 +77,19 @@ def file_parameters(
         if (path, plain) not in run.parameter_files:
             run.parameter_files[path, plain] = read_file(path, value.location, run, plain=plain)
         file = run.parameter_files[asked] = run.parameter_files[path, plain]
-    return None if file is None else _given(file, value, everywhere=everywhere)
+    return None if file is None else given(file, value, everywhere=everywhere)
+
+
+def _keep(file: FileParameters, value: Value, written: Template, run: Resolution, *, plain: bool) -> None:
+    """Have the file found at once where the same text names it again."""
+    named = named_by(written, run, plain=plain) if value.text.startswith("/") else None
+    if named is not None:
+        run.parameter_files[named[0]] = file
 
 
 def _from_here(path: str, run: Resolution) -> str:
     """Return a path with what else decides where it leads."""
     return "\0".join((run.context.file or "", path, os.getcwd()))  # noqa: PTH109 - pathlib is slow
-
-
-def _given(file: FileParameters, value: Value, *, everywhere: bool) -> FileParameters:
-    """Return a file as it is given by a value that is its path."""
-    made: Any = _new(FileParameters)
-    made._written = value  # noqa: SLF001 - it is made here
-    made.path, made.sections, made.plain = file.path, file.sections, file.plain
-    made.everywhere = everywhere
-    made.through = value.through
-    made.within, made.sound = file.within, file.sound
-    given: FileParameters = made
-    return given
-
-
-_new = object.__new__
 
 
 def _warn_of_lacking(told: str, value: Value, written: Template, run: Resolution) -> None:

@@ -24,7 +24,7 @@ from orchestra.resolve.model import (
     place_of,
 )
 from orchestra.resolve.paths import beside
-from orchestra.resolve.plain_parameters import plainly, read_at_once
+from orchestra.resolve.plain_parameters import given_again, plainly, read_at_once
 from orchestra.resolve.rcl.odd_names import may_be_odd, odd_name
 from orchestra.resolve.rcl.surprises import of_commas
 from orchestra.resolve.rcl.surprises import plainly as said_plainly
@@ -77,9 +77,16 @@ def parameters(
             whole = whole and None not in items
         elif param.faulty and beside(run.context.file, param.from_.raw) is None:
             whole = False  # it may be no parameter at all: a remap stands where one belongs
+        elif (
+            param.allow_substs is None
+            and (known := given_again(param.from_, run, plain=component)) is not None
+        ):
+            found.append(known)
+            whole = whole and known.sound
         else:
             substitute = param.allow_substs is not None and run.flag(param.allow_substs, default=False)
-            from orchestra.resolve.parameter_files import file_parameters  # noqa: PLC0415 - many plans have none
+            # Here, because many plans have none.
+            from orchestra.resolve.parameter_files import file_parameters  # noqa: PLC0415
 
             file = file_parameters(param.from_, run, substitute=substitute is True, plain=component)
             if file is not None and isinstance(substitute, bool):

@@ -6,14 +6,15 @@ from typing import TYPE_CHECKING, Any
 
 from orchestra.description.text import Constant, Items, MatchedTemplate, Template, Words
 from orchestra.resolve.evaluate import plainly as known_text
-from orchestra.resolve.model import InlineParameter
+from orchestra.resolve.late_values import matched_value
+from orchestra.resolve.model import FileParameters, InlineParameter
 from orchestra.resolve.rcl.odd_names import may_be_odd
 from orchestra.resolve.scalars import items_alike, number_held, read_alike, value_alike
 
 if TYPE_CHECKING:
     from orchestra.description.actions.set_parameter import SetParameter
     from orchestra.description.parts import Param
-    from orchestra.resolve.context import Read
+    from orchestra.resolve.context import Read, Value
     from orchestra.resolve.resolution import Resolution
     from orchestra.values import ParameterValue
 
@@ -51,6 +52,56 @@ def plainly(param: Param, run: Resolution, everywhere: bool, quotes: bool) -> In
     made._written = param, run.context.included_from  # noqa: SLF001 - it is made here
     parameter: InlineParameter = made
     return parameter
+
+
+def given_again(written: Template, run: Resolution, *, plain: bool) -> FileParameters | None:
+    """Return a file that the same text has named before, with the same variables; None where it takes a look.
+
+    `plain`: it may be one without sections.
+    """
+    known = named_by(written, run, plain=plain) if run.parameter_files else None
+    file = None if known is None else run.parameter_files.get(known[0])
+    if known is None or file is None:
+        return None
+    value = matched_value(file.path, written, run.context.included_from, known[1])  # type: ignore[arg-type]
+    return given(file, value, everywhere=False)
+
+
+def named_by(
+    written: Template, run: Resolution, *, plain: bool
+) -> tuple[tuple[object, ...], tuple[Read, ...]] | None:
+    """Return what decides which file a text names, and what is noted of variables in it; None for other texts.
+
+    A path has to be absolute besides.
+    """
+    if type(written) is not MatchedTemplate:
+        return None
+    context, pieces = run.context, written.pieces
+    if pieces is None:
+        return (written.raw, context.file, plain), ()
+    names = pieces.beside if pieces.variables is None else pieces.variables
+    if names is None:
+        return None
+    if not names:
+        return (written.raw, context.file, plain), ()
+    reads = context.variables.known(names)
+    return (
+        None
+        if reads is None
+        else ((written.raw, context.file, plain, *[item.value for item in reads]), reads)
+    )
+
+
+def given(file: FileParameters, value: Value, *, everywhere: bool) -> FileParameters:
+    """Return a file as it is given by a value that is its path."""
+    made: Any = _new(FileParameters)
+    made._written = value  # noqa: SLF001 - it is made here
+    made.path, made.sections, made.plain = file.path, file.sections, file.plain
+    made.everywhere = everywhere
+    made.through = value.through
+    made.within, made.sound = file.within, file.sound
+    found: FileParameters = made
+    return found
 
 
 _new = object.__new__

@@ -93,7 +93,7 @@ class Resolution:
     components: dict[tuple[str, ...], tuple[Any, ...]] = field(default_factory=dict)
     inherited: tuple[Value, Value] | None = None
     descriptions: dict[str, Description | None] = field(default_factory=dict)
-    parameter_files: dict[tuple[str, bool], FileParameters | None] = field(default_factory=dict)
+    parameter_files: dict[tuple[object, ...], FileParameters | None] = field(default_factory=dict)
     make_engine: Callable[[Resolution], Any] | None = None
     _engine: Any = None
     _extended: bool | None = None
