@@ -27,7 +27,7 @@ from orchestra.fields import (
     values_of,
 )
 
-__all__ = ["dataclass", "maker"]
+__all__ = ["dataclass", "leave_open", "maker"]
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -210,7 +210,7 @@ def maker(cls: Callable[P, T]) -> Callable[P, T]:
     For classes of which a launch makes thousands; without `__post_init__`. To refuse that fields are set takes time
     where they are set first: of such a class it is left to type checkers. So the module of the class makes its maker.
     """
-    _leave_open(cls)
+    leave_open(cls)
     made: Callable[P, T] = _Maker(cls).made
     return made
 
@@ -267,7 +267,7 @@ def _is_open(cls: Any) -> bool:
     return set_field is object.__setattr__
 
 
-def _leave_open(cls: Any) -> None:
-    """Have a class refuse nothing any more."""
+def leave_open(cls: Any) -> None:
+    """Have a class refuse nothing any more: that its fields are set is left to type checkers to refuse."""
     for name, method in _OPEN.items():
         setattr(cls, name, method)

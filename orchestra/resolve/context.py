@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from collections.abc import Set as AbstractSet
-from typing import TYPE_CHECKING, Final, Literal, NamedTuple, Protocol, TypeAlias
+from typing import TYPE_CHECKING, Any, Final, Literal, NamedTuple, Protocol, TypeAlias
 
 from orchestra.dataclass import dataclass, maker
 from orchestra.description.text import Opaque
@@ -75,12 +75,17 @@ new_value = maker(Value)
 
 
 class Packaged(NamedTuple):
-    """What names a program of a package where it was first found, and the words that start it; nothing was read."""
+    """What a node starts: the names of package and executable where they are known, and the words that start it.
 
-    package: Value
-    executable: Value
+    `share` is the share folder of the package, where that is here; `through` was read for the two names.
+    """
+
+    package: str | None
+    executable: str | None
     words: tuple[str, ...]
-    through: tuple[Read, ...] = ()
+    share: str | None
+    through: Sequence[Read] = ()
+    faulty: bool = False
 
 
 class Poison:
@@ -126,6 +131,40 @@ def noted_of(name: str, variable: Variable) -> tuple[Read] | None:
         read = new_read("variable", name, value.text, setter, at, value.through, written, value)
         variable.noted.append((read,))
     return variable.noted[0]
+
+
+def notes_of(names: Sequence[str], variables: Mapping[str, Variable]) -> tuple[Read, ...] | None:
+    """Return what is noted of each variable; None where there is something to tell of one."""
+    found: list[Read] = []
+    for name in names:
+        variable = variables.get(name)
+        if variable is None or variable.leaked_from is not None:
+            return None
+        read = noted_of(name, variable)
+        if read is None:
+            return None
+        found += read
+    return tuple(found)
+
+
+class Tracing:
+    """A while in which what is read in a scope is collected; what is around it gets it too."""
+
+    __slots__ = ("_outer", "_reads", "_scope")
+
+    def __init__(self, scope: Any) -> None:  # noqa: ANN401 - a `Scope`
+        self._scope = scope
+        self._outer: list[Read] | None = None
+        self._reads: list[Read] = []
+
+    def __enter__(self) -> list[Read]:
+        self._outer, self._scope._reads = self._scope._reads, self._reads  # noqa: SLF001 - a part of it
+        return self._reads
+
+    def __exit__(self, *_: object) -> None:
+        self._scope._reads = self._outer  # noqa: SLF001 - as above
+        if self._outer is not None:
+            self._outer += self._reads
 
 
 class Variables(Protocol):

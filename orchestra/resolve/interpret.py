@@ -19,7 +19,7 @@ from orchestra.resolve.model import ResolvedSkip
 from orchestra.resolve.resolution import MOST_STEPS
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Callable, Iterable
 
     from orchestra.description.entity import Action, Conditional
     from orchestra.description.launch import Description
@@ -72,6 +72,8 @@ _LEAVES = frozenset(
     {"Executable", "Let", "LifecycleNode", "Log", "Node", "SetEnv", "SetParameter", "SetRemap"}
 )
 
+_NOTHING: dict[str, Any] = {}  # what is known of an action of which nothing is
+
 
 class Visitor(Protocol):
     """The behaviour of one action."""
@@ -83,37 +85,43 @@ class Visitor(Protocol):
 def visit(actions: Iterable[Action], run: Resolution) -> None:
     """Visit actions in order, leaving out those whose condition says so."""
     run.depth += 1
-    around = run.around
     for action in actions:
         if run.steps < MOST_STEPS - 1:  # as `goes_on` counts
             run.steps += 1
         elif not run.goes_on(action):
             break
-        if action.faults:
+        beside = action.__pydantic_private__ or _NOTHING  # as `faults` and `origin` are told
+        if "faults" in beside:
             _report_faults(action, run)
-        name, origin = type(action).__name__, action.origin
-        conditional = action.if_ is not None or action.unless is not None
-        if origin is None and not conditional:  # as most are
-            _visitor(name).visit(action, run)
-            continue
-        if not wanted(action, VISITORS[name], run):
-            continue
-        run.conditions += conditional
-        if conditional:
-            run.found.visited.add(id(action))
-        outer = run.held
-        if conditional and (origin is not None or name not in _LEAVES):
-            run.held = (*outer, *_held(action, run))
-        if origin is None:
-            _visitor(name).visit(action, run)
+        if beside.get("origin") is None and action.if_ is None and action.unless is None:  # as most are
+            _visiting(type(action))(action, run)
         else:
-            run.around = (*around, origin)
-            _visitor(name).visit(action, run)
-            run.around = around
-            run.found.carried_out[id(origin)] = origin
-        run.conditions -= conditional
-        run.held = outer
+            _visit_wanted(action, run)
     run.depth -= 1
+
+
+def _visit_wanted(action: Action, run: Resolution) -> None:
+    """Visit an action that has a condition, or is of Python, unless its condition says that it is left out."""
+    name, origin = type(action).__name__, action.origin
+    conditional = action.if_ is not None or action.unless is not None
+    if conditional and not wanted(action, VISITORS[name], run):
+        return
+    around, outer = run.around, run.held
+    run.conditions += conditional
+    if conditional:
+        run.found.visited.add(id(action))
+        if origin is not None or name not in _LEAVES:
+            run.held = (*outer, *_held(action, run))
+    visiting = _visiting(type(action))
+    if origin is None:
+        visiting(action, run)
+    else:
+        run.around = (*around, origin)
+        visiting(action, run)
+        run.around = around
+        run.found.carried_out[id(origin)] = origin
+    run.conditions -= conditional
+    run.held = outer
 
 
 def visit_file(description: Description, run: Resolution) -> None:
@@ -139,9 +147,9 @@ def _report_faults(action: Action, run: Resolution) -> None:
 
 
 @cache
-def _visitor(name: str) -> Visitor:
-    visitor: Visitor = import_module(f"orchestra.resolve.actions.{VISITORS[name]}")
-    return visitor
+def _visiting(kind: type[Action]) -> Callable[[Any, Resolution], None]:
+    visitor: Visitor = import_module(f"orchestra.resolve.actions.{VISITORS[kind.__name__]}")
+    return visitor.visit
 
 
 def wanted(action: Conditional, word: str, run: Resolution) -> bool:

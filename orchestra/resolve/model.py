@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
-from orchestra.dataclass import dataclass, maker
+from orchestra.dataclass import dataclass, leave_open, maker
 from orchestra.description.text import Constant, Items, Template, span_of
 from orchestra.fields import field
 from orchestra.load.offsets import is_on_one_line
@@ -114,7 +114,7 @@ class FileParameters(_Written):
             return self.location
 
 
-# What a resolution makes thousands of; `new_remap` and `new_process` are another two.
+# What a resolution makes thousands of; `new_remap` is another one, and processes are filled in where they are made.
 new_parameter = maker(InlineParameter)
 new_file = maker(FileParameters)
 
@@ -170,17 +170,18 @@ class EnvironmentChange:
     through: tuple[Read, ...] = field(default=(), compare=False, repr=False)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True)
 class ResolvedProcess:
     """One process. `program` starts it; a node's arguments and ROS arguments are added by the plan.
 
-    How it runs is filled in by `add_process`, before anybody else has it. `conditional` tells that a condition, which
-    is true, stands on it or around it. `faulty` marks a process of which something has been reported: what follows from
-    it is not reported again. `parameter_arguments` are what the node's own arguments say of its parameters, on the
-    command line before `parameters`, and so many of the first `remaps` stand there. Without `inherit_environment` it
-    gets nothing but `environment`. `stdin` is the place that says that it reads what is typed. `through` was read to
-    make the words of its command line. `share` is the share folder of its package, where that is here. `origin` is the
-    object of a Python launch file that made it, `around` are those that it came out of, this one included.
+    It has no slots: few say more than a third of it, and what is not said is as the class has it. How it runs is filled
+    in by `add_process`, before anybody else has it. `conditional` tells that a condition, which is true, stands on it
+    or around it. `faulty` marks a process of which something has been reported: what follows from it is not reported
+    again. `parameter_arguments` are what the node's own arguments say of its parameters, on the command line before
+    `parameters`, and so many of the first `remaps` stand there. Without `inherit_environment` it gets nothing but
+    `environment`. `stdin` is the place that says that it reads what is typed. `through` was read to make the words of
+    its command line. `share` is the share folder of its package, where that is here. `origin` is the object of a Python
+    launch file that made it, `around` are those that it came out of, this one included.
     """
 
     kind: Kind
@@ -226,7 +227,7 @@ class ResolvedProcess:
     around: tuple[Any, ...] = field(default=(), compare=False, repr=False)
 
 
-new_process = maker(ResolvedProcess)
+leave_open(ResolvedProcess)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

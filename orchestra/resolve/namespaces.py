@@ -26,7 +26,7 @@ def below(base: Evaluated | None, namespace: Evaluated | None, problems: Problem
         if namespace is None or not namespace.text.startswith("/"):
             return POISON
         base = None
-    text = joined(base.text if base else None, namespace.text if namespace else None)
+    text = joined(None if base is None else base.text, None if namespace is None else namespace.text)
     if text is None:
         return None
     written = namespace or base

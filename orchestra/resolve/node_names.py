@@ -24,12 +24,15 @@ def named(template: Template | None, run: Resolution) -> Evaluated | None:
     value = run.evaluate(template)
     if value is None or isinstance(value, Poison):
         return value
-    name = replace(value, text=value.text[1:]) if value.text[:1] == "/" else value
-    fault = node_name_fault(name.text)
+    name, fault = value, node_name_fault(value.text)
     if fault is None:
-        if name is not value:
-            warn_of_slash(value, run)
         return name
+    if value.text[:1] == "/":
+        name = replace(value, text=value.text[1:])
+        fault = node_name_fault(name.text)
+        if fault is None:
+            warn_of_slash(value, run)
+            return name
     message = f"'{value.text}' cannot be a node's name: {fault.reason}"
     last = name.text.rpartition("/")[2]
     meant = last if node_name_fault(last) is None else mended(last, node_name_fault)

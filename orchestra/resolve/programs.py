@@ -101,7 +101,7 @@ def packaged_words(
     if not _is_runnable(words[0], executable.location, run):
         return POISON
     if (words[0], known[2]) in run.startable:  # there is nothing to tell of it
-        run.packaged[known] = Packaged(package, executable, words)
+        run.packaged[known] = Packaged(package.text, executable.text, words, packages.share(package.text))
     return words
 
 

@@ -34,17 +34,25 @@ def remap(source: Template, target: Template, run: Resolution) -> ResolvedRemap 
         meant = name if rule_name_fault(name) is None else mended(name, rule_name_fault)
         refuse_value(value, run.problems, Code.BAD_NAME, message, meant=meant)
         return None
-    same = left.text == right.text and source.constant is not None and source.constant == target.constant
-    if same and not is_python(source.span):
+    if left.text == right.text and _are_written_alike(source, target):
         message = f"'{left.text}' is remapped to itself"
         run.problems.warning(Code.IDLE_REMAP, message, right.location)
     return new_remap(left, right)
+
+
+def _are_written_alike(source: Template, target: Template) -> bool:
+    """Return whether two texts of a file are the same words."""
+    written = source.constant
+    return written is not None and written == target.constant and not is_python(source.span)
 
 
 def remaps(written: Sequence[Remap], run: Resolution) -> tuple[tuple[ResolvedRemap, ...], bool]:
     """Return the rules of a node in order, and whether all of them are sound."""
     if not written:
         return (), True
-    rules = [remap(item.from_, item.to, run) for item in written]
-    sound = tuple([rule for rule in rules if rule is not None])
-    return sound, len(sound) == len(rules)
+    rules = []
+    for item in written:
+        rule = remap(item.from_, item.to, run)
+        if rule is not None:
+            rules.append(rule)
+    return tuple(rules), len(rules) == len(written)

@@ -9,7 +9,7 @@ import re
 from functools import lru_cache
 from typing import TYPE_CHECKING, Final, Literal, TypeAlias
 
-from orchestra.dataclass import dataclass
+from orchestra.dataclass import dataclass, maker
 from orchestra.patterns import pattern
 from orchestra.resolve.names import (
     Fault,
@@ -49,6 +49,9 @@ class Rule:
     replacement: str
 
 
+new_rule = maker(Rule)
+
+
 @dataclass(frozen=True, slots=True)
 class DeadRule:
     """The rule at index `rule` never acts, because the one at index `caught_by` comes first."""
@@ -60,6 +63,9 @@ class DeadRule:
 @lru_cache(maxsize=4096)  # rules are read where they are resolved, and again where they are checked
 def read_rule(source: str, target: str) -> Rule:
     """Read a remapping `source:=target`. Raises `InvalidName`, for the side that cannot be."""
+    plain = ":" not in source and "__" not in source  # for a topic or a service of any node, as most
+    if plain and rule_name_fault(source) is None and rule_name_fault(target) is None:
+        return new_rule(None, _NAMES, source, target)
     found = _LEFT.fullmatch(source)
     if found is None:
         raise InvalidName(source, Fault("it is no remap rule", 0))
@@ -70,9 +76,9 @@ def read_rule(source: str, target: str) -> Rule:
     if own is None:
         _accept(source, rule_name_fault(match), found.start("match"))
         _accept(target, rule_name_fault(target), 0)
-        return Rule(node, _KINDS[scheme], match, target)
+        return new_rule(node, _KINDS[scheme], match, target)
     _accept(target, namespace_fault(target) if own == ("namespace",) else node_name_fault(target), 0)
-    return Rule(node, own, match, target)
+    return new_rule(node, own, match, target)
 
 
 def identity(rules: Sequence[Rule], namespace: str, name: str) -> tuple[str, str]:

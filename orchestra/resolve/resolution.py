@@ -175,13 +175,14 @@ class Resolution:
 
     def evaluate(self, template: Template | None) -> Evaluated | None:
         """Evaluate a text in the current scope; None stays None."""
-        if template is None:
-            return None
         if type(template) is not MatchedTemplate:
-            return evaluate(template, self.context)
-        if template.constant is None:
+            return None if template is None else evaluate(template, self.context)
+        if template.constant is not None:
+            return matched_value(template.constant, template, self.context.included_from)
+        known = None if template.pieces is None else self.scope.filled(template.pieces)
+        if known is None:
             return performed(template, self.context)
-        return matched_value(template.constant, template, self.context.included_from)
+        return matched_value(known[0], template, self.context.included_from, known[1])
 
     def text(self, template: Template | None) -> str | Poison | None:
         """Return what a text comes to."""
@@ -202,8 +203,7 @@ class Resolution:
         value = self.evaluate(template)
         if not isinstance(value, Value):
             return default if value is None else POISON
-        flag = boolean(value.text)
-        if flag is not None:
+        if (flag := boolean(value.text)) is not None:
             return flag
         message = f"expected true or false, found '{value.text}'"
         meant = nearest(value.text, FLAG_WORDS)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from functools import partial
-from operator import attrgetter
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -33,14 +32,9 @@ if TYPE_CHECKING:
     from orchestra.values import Limits
 
 
-# What an action may say of how its process runs, and the variables that say it for all.
-_settings = attrgetter(
-    *("env_only", "depends_on", "launch_prefix", "shell", "cwd", "emulate_tty", "on_exit"),
-    *("respawn", "respawn_delay", "respawn_max_retries", "restart", "required", "success_exit_codes"),
-    *("ready", "alive", "stop", "sigterm_timeout", "sigkill_timeout", "limits", "stdin", "warm"),
-)
-_NOTHING = (None, (), *((None,) * 19))
+# Variables that say for all processes how they run.
 _FOR_ALL = ("launch-prefix", "launch-prefix-filter", "emulate_tty", "sigterm_timeout", "sigkill_timeout")
+_NOWHERE: dict[str, tuple[EnvironmentChange, ...]] = {}  # nobody changes it
 
 
 def add_process(action: Running, program: ResolvedProcess, run: Resolution) -> int:
@@ -49,31 +43,63 @@ def add_process(action: Running, program: ResolvedProcess, run: Resolution) -> i
     It starts with the run, or with the timer around it.
     """
     process: Any = program  # which nobody else has
-    frame, found, process.origin = run.frame, run.found.processes, action.origin
-    process.depends_on, process.labels, process.around = frame.depends_on, frame.labels, run.around
+    frame, found, occasion = run.frame, run.found.processes, run.occasion
+    process.depends_on, process.labels = frame.depends_on, frame.labels
     # What one in Python said of conditions is not known.
-    process.conditional = process.origin is not None or run.conditional
-    if _says_nothing(action, run):
+    process.conditional = run.conditions > 0 or occasion is not None
+    if action.origin is not None:
+        process.origin, process.around, process.conditional = action.origin, run.around, True
+    elif run.around:
+        process.around = run.around
+    scope = run.scope
+    if _says_nothing(action) and scope.variables.keys().isdisjoint(_FOR_ALL):
         places = output(action.output, run, process.location)
-        changes = _environment(action, run) if action.env else dict(run.scope.changes)
+        changes = (
+            _environment(action, run) if action.env else dict(scope.changes) if scope.changes else _NOWHERE
+        )
         process.output = None if places is POISON else places
-        process.environment = {} if changes is POISON else changes
+        process.environment = _NOWHERE if changes is POISON else changes
         faulty = places is POISON or changes is POISON
     else:
         faulty = _say(action, process, run)
     if faulty or action.faulty:  # when all others have been looked at
         process.faulty = True
-    if run.occasion is not None:
-        run.occasion.do.append(ResolvedStart(len(found), process.location))
+    if occasion is not None:
+        occasion.do.append(ResolvedStart(len(found), process.location))
     found.append(process)
     if process.origin is not None:
         _tell(process, run)
     return len(found) - 1
 
 
-def _says_nothing(action: Running, run: Resolution) -> bool:
-    """Return whether nothing but variables is said about how a process runs, at it or for all: most are such."""
-    return _settings(action) == _NOTHING and run.scope.variables.keys().isdisjoint(_FOR_ALL)
+def _says_nothing(action: Running) -> bool:
+    """Return whether nothing but variables and where output goes is said of how a process runs: most are such.
+
+    One by one, for no other way is as quick.
+    """
+    return (
+        action.respawn is None
+        and action.respawn_delay is None
+        and action.respawn_max_retries is None
+        and action.restart is None
+        and action.on_exit is None
+        and action.required is None
+        and action.success_exit_codes is None
+        and action.launch_prefix is None
+        and action.shell is None
+        and action.cwd is None
+        and action.env_only is None
+        and action.emulate_tty is None
+        and action.stdin is None
+        and action.stop is None
+        and action.sigterm_timeout is None
+        and action.sigkill_timeout is None
+        and not action.depends_on
+        and action.ready is None
+        and action.alive is None
+        and action.limits is None
+        and action.warm is None
+    )
 
 
 def _say(action: Running, process: Any, run: Resolution) -> bool:  # noqa: ANN401 - one that is filled

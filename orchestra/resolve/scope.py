@@ -16,7 +16,7 @@ from orchestra.dataclass import dataclass
 from orchestra.errors import Code, Problems
 from orchestra.fields import field
 from orchestra.resolve.bounded import with_change, with_parameter
-from orchestra.resolve.context import POISON, Evaluated, Read, Setter, Value, Variable, new_variable, noted_of
+from orchestra.resolve.context import POISON, Read, Tracing, Value, Variable, new_variable, noted_of, notes_of
 from orchestra.resolve.ledger import Ledger
 from orchestra.resolve.model import EnvironmentChange, InlineParameter, ParameterSource, ResolvedRemap
 from orchestra.resolve.scalars import flow
@@ -24,8 +24,9 @@ from orchestra.resolve.scalars import flow
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
 
+    from orchestra.description.text import Pieces
     from orchestra.location import Location, Span
-    from orchestra.resolve.context import ReadKind
+    from orchestra.resolve.context import Evaluated, ReadKind, Setter
 
 
 NAMESPACE = "ros_namespace"
@@ -69,6 +70,8 @@ class Scope:
     saved_environments: list[SavedEnvironment] = field(default_factory=list)
     saved_settings: list[SavedSettings] = field(default_factory=list)
     environment_copy: dict[str, str] | None = None  # where somebody has made one, until that is changed
+    _noted: dict[tuple[str, ...], tuple[Read, ...]] = field(default_factory=dict)  # until a variable is set
+    _filled: dict[int, tuple[str, tuple[Read, ...], Any]] = field(default_factory=dict)  # as long
     _journal: list[tuple[dict[str, Any], str, Any]] = field(default_factory=list)
     _reads: list[Read] | None = None
 
@@ -86,19 +89,32 @@ class Scope:
 
     def known(self, names: Sequence[str]) -> tuple[Read, ...] | None:
         """Return what is noted of each variable, its value with it; None where there is something to tell of one."""
-        found: tuple[Read, ...] = ()
-        for name in names:
-            variable = self.variables.get(name)
-            if variable is None or variable.leaked_from is not None:
+        key = tuple(names)
+        found = self._noted.get(key)
+        if found is None:
+            found = notes_of(key, self.variables)
+            if found is None:
                 return None
-            read = variable.noted[0] if variable.noted else noted_of(name, variable)
-            if read is None:
-                return None
-            found = found + read if found else read
+            self._noted[key] = found
         self.ledger.read.update(names)
         if self._reads is not None:
             self._reads += found
         return found
+
+    def filled(self, pieces: Pieces) -> tuple[str, tuple[Read, ...]] | None:
+        """Return what variables alone make of a text, and what is noted of them; None as `known`, or for any other."""
+        found = self._filled.get(id(pieces))
+        if found is None:
+            reads = None if pieces.variables is None else self.known(pieces.variables)
+            if reads is None:
+                return None
+            text = pieces.filled([read.value for read in reads])
+            self._filled[id(pieces)] = text, reads, pieces
+            return text, reads
+        self.ledger.read.update(pieces.variables or ())
+        if self._reads is not None:
+            self._reads += found[1]
+        return found[0], found[1]
 
     def note(self, kind: ReadKind, name: str, value: str) -> None:
         """Note that something other than a variable is read."""
@@ -238,7 +254,10 @@ class Scope:
         self._write(table, name, value)
 
     def _write(self, table: dict[str, Any], name: str, value: object) -> None:
-        if table is self.environment:
+        if table is self.variables:
+            self._noted.clear()
+            self._filled.clear()
+        elif table is self.environment:
             self.environment_copy = None
         if value is _ABSENT:
             table.pop(name, None)
@@ -268,26 +287,6 @@ class Scope:
             notes=(f"set at {variable.location}", f"included at {variable.leaked_from}"),
         )
         self._put(self.variables, name, _changed(variable, None, variable.settled))
-
-
-class Tracing:
-    """A while in which what is read in a scope is collected; what is around it gets it too."""
-
-    __slots__ = ("_outer", "_reads", "_scope")
-
-    def __init__(self, scope: Scope) -> None:
-        self._scope = scope
-        self._outer: list[Read] | None = None
-        self._reads: list[Read] = []
-
-    def __enter__(self) -> list[Read]:
-        self._outer, self._scope._reads = self._scope._reads, self._reads  # noqa: SLF001 - a part of it
-        return self._reads
-
-    def __exit__(self, *_: object) -> None:
-        self._scope._reads = self._outer  # noqa: SLF001 - as above
-        if self._outer is not None:
-            self._outer += self._reads
 
 
 def _changed(old: Variable, leaked_from: Span | None, settled: Location | None) -> Variable:

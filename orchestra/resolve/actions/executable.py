@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.description.text import raw_of, span_of
 from orchestra.errors import Code
 from orchestra.resolve.context import POISON, Poison, Value
-from orchestra.resolve.model import new_process
+from orchestra.resolve.model import ResolvedProcess
 from orchestra.resolve.programs import is_missing, program_words
 from orchestra.resolve.running import add_process
 from orchestra.resolve.worded import look_at_paths
@@ -32,18 +32,19 @@ def visit(action: Executable, run: Resolution) -> None:
     label = run.text(action.name)
     at = run.place(action)
     namespace = run.scope.namespace(at)
-    found: tuple[str, ...] = () if isinstance(words, Poison) else words
-    process = new_process(
-        kind="process",
-        executable=_called(found[0]) if found else raw_of(action.cmd),
-        program=found,
-        location=at,
-        namespace=namespace if isinstance(namespace, Value) else None,
-        label=label if isinstance(label, str) else None,
-        faulty=any(isinstance(value, Poison) for value in (words, label, namespace)),
-        through=tuple(reads),
-    )
+    process: Any = _new(ResolvedProcess)  # what is not said of it is as the class has it
+    process.kind = "process"
+    process.location = at
+    process.program = () if isinstance(words, Poison) else words
+    process.executable = _called(process.program[0]) if process.program else raw_of(action.cmd)
+    process.namespace = namespace if isinstance(namespace, Value) else None
+    process.label = label if isinstance(label, str) else None
+    process.faulty = any(isinstance(value, Poison) for value in (words, label, namespace))
+    process.through = tuple(reads)
     add_process(action, process, run)
+
+
+_new: Final = object.__new__
 
 
 def _called(program: str) -> str:

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import os
 from functools import partial
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.description.actions.node import REACHED
 from orchestra.description.text import MatchedTemplate
 from orchestra.errors import Code
-from orchestra.resolve.context import POISON, Evaluated, Poison, Value
-from orchestra.resolve.model import FileParameters, ResolvedRemap, new_process
+from orchestra.resolve.context import POISON, Evaluated, Packaged, Poison, Value
+from orchestra.resolve.model import FileParameters, ResolvedProcess, ResolvedRemap
 from orchestra.resolve.namespaces import namespace_at
 from orchestra.resolve.node_names import named
 from orchestra.resolve.parameters import parameters
@@ -28,18 +28,16 @@ if TYPE_CHECKING:
     from orchestra.description.actions.node import Node
     from orchestra.description.text import Template
     from orchestra.resolve.context import Read
-    from orchestra.resolve.model import Kind, ResolvedProcess
+    from orchestra.resolve.model import Kind
     from orchestra.resolve.resolution import Resolution
-
-    _Started: TypeAlias = tuple[Evaluated | None, Evaluated | None, tuple[str, ...] | Poison, Sequence[Read]]
 
 
 def visit(action: Node, run: Resolution) -> None:
     """Start a node; one that is brought to a state is a lifecycle node."""
-    managed = None if action.lifecycle is None else run.word(action.lifecycle, REACHED)
-    if managed is None:
+    if action.lifecycle is None:
         start(action, "node", run)
         return
+    managed = run.word(action.lifecycle, REACHED)
     index = start(action, "lifecycle_node", run, autostart=POISON if isinstance(managed, Poison) else True)
     check_full_name(index, action, run)
 
@@ -55,43 +53,31 @@ def check_full_name(index: int, action: Node, run: Resolution) -> None:
 
 def start(action: Node, kind: Kind, run: Resolution, *, autostart: bool | Poison | None = False) -> int:
     """Add the process of a node to what has been found; return its index."""
-    package, executable, words, reads = _known(action, run) or _found(action, run)
-    label = None if action.exec_name is None else run.text(action.exec_name)
-    name, namespace = named(action.name, run), namespace_at(action.namespace, action, run)
-    if namespace is POISON and isinstance(name, Value):
-        run.found.lost.add(name.text)  # its full name is not known
-        name = POISON
-    given: list[FileParameters | ResolvedRemap] = []
-    arguments, ros_arguments, more = _arguments(action, run, given, package, executable)
+    program = _known(action, run) or _found(action, run)
+    process: Any = _new(ResolvedProcess)  # what is not said of it is as the class has it
+    process.kind = kind
+    process.location = action.location(run.context.included_from)
+    process.package, process.executable, process.program, process.share, process.through, faulty = program
+    if process.executable is None:
+        process.executable = _started(action).raw
+    faulty |= _name(process, action, run)
+    if action.args is not None or action.ros_args is not None:
+        faulty |= _argue(process, program, action, run)
+    whole = regular = True
     scope = run.scope
-    own, whole = parameters(action.param, run)
-    rules, regular = remaps(action.remap, run)
-    among = tuple([item for item in given if isinstance(item, ResolvedRemap)]) if given else ()
-    schema = None if action.params_schema is None else params_schema(action.params_schema, run)
-    values = (package, executable, label, words, name, namespace, arguments, ros_arguments, autostart, schema)
-    process = new_process(
-        kind=kind,
-        executable=executable.text if isinstance(executable, Value) else _started(action).raw,
-        program=() if isinstance(words, Poison) else words,
-        location=action.location(run.context.included_from),
-        package=package.text if isinstance(package, Value) else None,
-        name=None if isinstance(name, Poison) else name,
-        namespace=None if isinstance(namespace, Poison) else namespace,
-        label=None if isinstance(label, Poison) else label,
-        arguments=() if isinstance(arguments, Poison) else arguments,
-        ros_arguments=None if isinstance(ros_arguments, Poison) or action.ros_args is None else ros_arguments,
-        parameters=scope.parameters + own,
-        parameter_arguments=tuple([item for item in given if isinstance(item, FileParameters)])
-        if given
-        else (),
-        remaps=among + scope.remaps + rules,
-        remaps_among_words=len(among),
-        autostart=autostart is True,
-        through=(*reads, *more) if more or reads else (),
-        params_schema=None if isinstance(schema, Poison) else schema,
-        share=run.context.packages.share(package.text) if isinstance(package, Value) else None,
-        faulty=not whole or not regular or Poison in map(type, values),
-    )
+    among, rules = process.remaps, scope.remaps
+    process.parameters = scope.parameters
+    if action.param:
+        own, whole = parameters(action.param, run)
+        process.parameters = scope.parameters + own if scope.parameters else own
+    if action.remap:
+        own_rules, regular = remaps(action.remap, run)
+        rules = rules + own_rules if rules else own_rules
+    process.remaps = among + rules if among else rules
+    if action.params_schema is not None:
+        faulty |= _declare(process, action.params_schema, run)
+    process.autostart = autostart is True
+    process.faulty = faulty or not whole or not regular or autostart is POISON
     if action.origin is not None:
         _tell(action.origin, process)
     if run.nodes_are_extended() and not process.faulty:
@@ -99,25 +85,52 @@ def start(action: Node, kind: Kind, run: Resolution, *, autostart: bool | Poison
     return add_process(action, process, run)
 
 
-def _arguments(
-    action: Node,
-    run: Resolution,
-    given: list[FileParameters | ResolvedRemap],
-    package: Evaluated | None,
-    executable: Evaluated | None,
-) -> tuple[tuple[str, ...] | Poison, tuple[str, ...] | Poison, Sequence[Read]]:
-    """Return the arguments and the ROS arguments, and what was read for them; what they set is `given`."""
-    if action.args is None and action.ros_args is None:
-        return (), (), ()
+_new: Final = object.__new__
+
+
+def _name(process: Any, action: Node, run: Resolution) -> bool:  # noqa: ANN401 - one that is filled
+    """Fill in label, name and namespace; return if any is faulty."""
+    label = None if action.exec_name is None else run.text(action.exec_name)
+    name, namespace = named(action.name, run), namespace_at(action.namespace, action, run)
+    if namespace is POISON and isinstance(name, Value):
+        run.found.lost.add(name.text)  # its full name is not known
+        name = POISON
+    process.label = None if label is POISON else label
+    process.name = None if name is POISON else name
+    process.namespace = None if namespace is POISON else namespace
+    return name is POISON or namespace is POISON or label is POISON
+
+
+def _declare(process: Any, written: Template, run: Resolution) -> bool:  # noqa: ANN401 - as above
+    """Fill in what declares the parameters; return if it is faulty."""
+    schema = params_schema(written, run)
+    faulty = isinstance(schema, Poison)
+    process.params_schema = None if faulty else schema
+    return faulty
+
+
+def _argue(process: Any, program: Packaged, action: Node, run: Resolution) -> bool:  # noqa: ANN401 - as above
+    """Fill in the arguments, and what they set; return if any is faulty."""
     started_by = None
-    if isinstance(package, Value) and package.text in ARGUED and isinstance(executable, Value):
-        started_by = (package.text, executable.text)
+    if program.package in ARGUED and program.executable is not None:
+        started_by = (program.package, program.executable)
+    given: list[FileParameters | ResolvedRemap] = []
     with run.scope.tracing() as reads:
         arguments, ros_arguments = (
             texts(action.args, run, for_ros=False, given=given, started_by=started_by),
             texts(action.ros_args, run, for_ros=True, given=given),
         )
-    return arguments, ros_arguments, reads
+    faulty = isinstance(arguments, Poison) or isinstance(ros_arguments, Poison)
+    process.arguments = () if isinstance(arguments, Poison) else arguments
+    if action.ros_args is not None:
+        process.ros_arguments = None if isinstance(ros_arguments, Poison) else ros_arguments
+    if given:
+        process.remaps = tuple([item for item in given if isinstance(item, ResolvedRemap)])
+        process.remaps_among_words = len(process.remaps)
+        process.parameter_arguments = tuple([item for item in given if isinstance(item, FileParameters)])
+    if reads:
+        process.through = (*program.through, *reads)
+    return faulty
 
 
 def _tell(origin: Any, process: ResolvedProcess) -> None:  # noqa: ANN401 - any object
@@ -146,7 +159,7 @@ def _started(action: Node) -> Template:
     return started
 
 
-def _known(action: Node, run: Resolution) -> _Started | None:
+def _known(action: Node, run: Resolution) -> Packaged | None:
     """Return what was found for a node of the same program, of which there is nothing to tell; None for none."""
     pkg, started = action.pkg, action.exec
     if type(pkg) is not MatchedTemplate or type(started) is not MatchedTemplate:
@@ -156,7 +169,7 @@ def _known(action: Node, run: Resolution) -> _Started | None:
     return run.packaged.get((pkg.constant, started.constant, run.scope.environment.get("PATH", os.defpath)))
 
 
-def _found(action: Node, run: Resolution) -> _Started:
+def _found(action: Node, run: Resolution) -> Packaged:
     """Return package, executable and words, and what was read for them."""
     started = _started(action)
     if started.constant is not None and (action.pkg is None or action.pkg.constant is not None):
@@ -165,7 +178,16 @@ def _found(action: Node, run: Resolution) -> _Started:
     else:
         with run.scope.tracing() as reads:
             package, executable = run.evaluate(action.pkg), run.evaluate(started)
-    return package, executable, _words(package, executable, action, run), reads
+    words = _words(package, executable, action, run)
+    name = package.text if isinstance(package, Value) else None
+    return Packaged(
+        name,
+        executable.text if isinstance(executable, Value) else None,
+        () if isinstance(words, Poison) else words,
+        None if name is None else run.context.packages.share(name),
+        tuple(reads),
+        package is POISON or executable is POISON or words is POISON,
+    )
 
 
 def _words(
