@@ -32,8 +32,8 @@ _HOLDING = frozenset({"children", "file"})  # the keys of what holds other actio
 
 _EntityT = TypeVar("_EntityT", bound="Entity")
 
-_set_beside: Callable[[Model, dict[str, Any]], None] = vars(Model)["__pydantic_private__"].__set__
-_set_values: Callable[[Model, dict[str, Any]], None] = vars(Model)["__dict__"].__set__
+set_beside: Callable[[Model, dict[str, Any]], None] = vars(Model)["__pydantic_private__"].__set__
+set_values: Callable[[Model, dict[str, Any]], None] = vars(Model)["__dict__"].__set__
 
 
 class FaultReader(Protocol):
@@ -70,7 +70,7 @@ class Entity(Model):
         """
         # As the constructor does, without its detours.
         entity: Self = cls.validator.validate_python(values)
-        _set_beside(
+        set_beside(
             entity,
             {"span": span, "origin": origin, "faults": faults}
             if faults
@@ -87,7 +87,7 @@ class Entity(Model):
         """
         entity = object.__new__(cls)
         object.__setattr__(entity, "__dict__", {**cls._unwritten(), **values})
-        _set_beside(entity, {"span": span, "origin": origin})
+        set_beside(entity, {"span": span, "origin": origin})
         return entity
 
     @classmethod
@@ -104,7 +104,7 @@ class Entity(Model):
         beside = self.__pydantic_private__
         if beside is None:
             beside = {}
-            _set_beside(self, beside)
+            set_beside(self, beside)
         return beside
 
     @property
@@ -231,7 +231,7 @@ class Entity(Model):
             entity = cls._again(cls._parted(values, conflict, mapping.head), mapping, handler)
             if entity.conflict() is not None:
                 raise PydanticCustomError(REPORTED, "reported")
-        _set_beside(entity, {"span": mapping.head, "faulty": True} if faulty else {"span": mapping.head})
+        set_beside(entity, {"span": mapping.head, "faulty": True} if faulty else {"span": mapping.head})
         data.read = entity
         return entity
 
@@ -282,8 +282,8 @@ class Action(Conditional):
 def matched_entity(model: type[_EntityT], values: dict[str, Any], matched: Matched, group: int) -> _EntityT:
     """Return an entity of a file: all of its fields, which nothing is wrong with. It stands where a group does."""
     entity = object.__new__(model)
-    _set_values(entity, values)
-    _set_beside(entity, {"span": None, "at": (matched, group)})
+    set_values(entity, values)
+    set_beside(entity, {"span": None, "at": (matched, group)})
     return entity
 
 

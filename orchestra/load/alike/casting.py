@@ -33,9 +33,10 @@ if TYPE_CHECKING:
 # The file of code that is written here: who watches what code does knows by it that it is ours.
 _MADE: Final = f"{__file__}: written"
 # Each value takes as long to be learned as a hundred to be read: lists of very many are no forms.
-_MOST_VALUES: Final = 100
+_MOST_VALUES: Final = 150
 # How the text of a key is read: with substitutions, without, or as the key has it.
 _TEXT, _LITERAL, _OWN = "template", "literal", ""
+_HARMLESS = "harmless"  # with substitutions, but nothing that escapes
 # In the code that is written, a group by its offsets.
 _GROUP: Final = re.compile(r"@([0-9]+):([0-9]+)@")
 
@@ -127,18 +128,22 @@ class _Cast:
         """Return the code for a text, None for what is none."""
         if not isinstance(made, Template):
             return None
-        if type(written) is not Verbatim or len(self.lines) >= _MOST_VALUES:
+        group, free = self.stands(written, way)
+        name, read = f"text{len(self.lines)}", _HARMLESS if free and way == _TEXT else way or _TEXT
+        self.lines.append(f"{name} = {read}(match[{group}], at, {group}, {written.quoted}, reader)")
+        return name
+
+    def stands(self, written: Any, way: str) -> tuple[str, bool]:  # noqa: ANN401 - a tree
+        """Return the group in which a text stands, and whether any that is harmless may stand there."""
+        if type(written) is not Verbatim or len(self.inside) >= _MOST_VALUES:
             raise UnlikeError
         first, last = _offsets(written.span)
         first, last = first + written.quoted, last - written.quoted
         if self.whole.text[first:last] != written.text:
             raise UnlikeError
         free = "" if way == _OWN else self.manner.harmless(self.whole.text, self.begin, first, last)
-        any_text = free and re.fullmatch(free, written.text)
-        inside = (EXPRESSION, free) if any_text else (TEXT, written.text)
-        name, group = f"text{len(self.lines)}", self.group((first, last), inside)
-        self.lines.append(f"{name} = {way or _TEXT}(match[{group}], at, {group}, {written.quoted}, reader)")
-        return name
+        any_text = bool(free) and re.fullmatch(free, written.text) is not None
+        return self.group((first, last), (EXPRESSION, free) if any_text else (TEXT, written.text)), any_text
 
     def place(self, span: Span) -> str:
         """Return the code for the place of something."""

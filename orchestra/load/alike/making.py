@@ -37,6 +37,13 @@ def template(text: str, matched: Matched, group: int, quoted: bool, reader: Read
     return matched_words(text, quoted, matched, group)
 
 
+def harmless(text: str, matched: Matched, group: int, quoted: bool, reader: Reader) -> Template:
+    """Return the same of a text that forms match: there are no quotes and no backslashes in it, and it is not empty."""
+    if "$" in text or "(" in text:
+        return template(text, matched, group, quoted, reader)
+    return matched_words(text, quoted, matched, group)
+
+
 @lru_cache(maxsize=256)
 def _pieces(text: str) -> Pieces | None:
     """Return the pieces of a text of calls and words, None where it takes a closer look."""
@@ -94,6 +101,7 @@ _UNLIKE: Final = frozenset("$\\'\"(")
 MAKING: Final[dict[str, Any]] = {
     "Matched": Matched,
     "entity": matched_entity,
+    "harmless": harmless,
     "items": items,
     "literal": literal,
     "template": template,

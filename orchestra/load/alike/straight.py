@@ -16,11 +16,11 @@ from typing import TYPE_CHECKING, Annotated, Any, Final, TypeAlias, Union, get_a
 from orchestra.dataclass import dataclass
 from orchestra.description.actions import model_of
 from orchestra.description.core import PydanticCustomError, ValidationError
-from orchestra.description.entity import Action, Entity, matched_entity
+from orchestra.description.entity import Action, Entity, set_beside, set_values
 from orchestra.description.fields import AnyValue, Argv, Literal, Text
 from orchestra.description.marks import Instance, NotEmpty, Plain, Told
 from orchestra.description.source import Written
-from orchestra.description.text import Items
+from orchestra.description.text import Items, matched_words
 from orchestra.load.alike.learned import UnlikeError
 from orchestra.load.alike.making import literal, template
 from orchestra.load.keys import spelled
@@ -45,12 +45,13 @@ class Keys:
 
 
 class Series:
-    """A list, the number of its place, and that of what introduces it."""
+    """A list, the number of its place, and that of what introduces it; `bare` if there are but literal words in it."""
 
-    __slots__ = ("at", "head", "items")
+    __slots__ = ("at", "bare", "head", "items")
 
-    def __init__(self, items: list[Any], at: int, head: int) -> None:
+    def __init__(self, items: list[Any], at: int, head: int, *, bare: bool = False) -> None:
         self.items = items
+        self.bare = bare
         self.at = at
         self.head = head
 
@@ -59,6 +60,7 @@ _Read: TypeAlias = Callable[[Any, Places, "Reader"], Any]
 
 
 _MOST_KEPT: Final = 2_000
+_new = object.__new__
 
 
 class Kind(Enum):
@@ -111,7 +113,9 @@ class Model:
 
         Raises `UnlikeError` where it lacks one, or has some that cannot stand together.
         """
-        entity = matched_entity(self.model, self.unwritten | values, places, head)
+        entity: Any = _new(self.model)
+        set_values(entity, self.unwritten | values)
+        set_beside(entity, {"span": None, "at": (places, head)})
         together = tuple(values)
         if together not in self.fit:
             self._check(entity, together)
@@ -244,6 +248,9 @@ def _text_or_list(written: Any, places: Places, reader: Reader) -> Any:  # noqa:
         return template(text, places, at, quoted, reader)
     if type(written) is not Series:
         return _escaped(written, reader)
+    if written.bare:
+        words = [matched_words(text, False, places, at) for text, at, _ in written.items]
+        return Items(words, places.span(written.at))
     return Items([_text(item, places, reader) for item in written.items], places.span(written.at))
 
 

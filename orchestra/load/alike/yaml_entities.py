@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Final
 
+from orchestra.description.text import matched_words
 from orchestra.load.alike.learned import UnlikeError
 from orchestra.load.alike.making import template
 from orchestra.load.alike.straight import Kind, action_model, how, read_action
@@ -19,6 +20,7 @@ from orchestra.load.alike.yaml_lines import (
     DOUBLE_IN_PAIR,
     FIRST,
     FIRST_KEY,
+    FIRST_WORD,
     IN_DOUBLE,
     IN_SINGLE,
     INDENT,
@@ -26,10 +28,14 @@ from orchestra.load.alike.yaml_lines import (
     NAME,
     OPEN,
     PAIR,
+    PLAIN,
     PLAIN_IN_PAIR,
     SECOND,
     SECOND_KEY,
+    SECOND_QUOTED,
     SINGLE_IN_PAIR,
+    TWO,
+    WORD,
     Scan,
     lines_of,
 )
@@ -45,6 +51,8 @@ if TYPE_CHECKING:
 
 _CHILDREN: Final = "children"
 _QUOTED: Final = frozenset({IN_DOUBLE, IN_SINGLE})
+# What a line may end with that names an action: nothing behind the key, or brackets.
+_OPENING: Final = frozenset({NAME, *BRACKETS})
 
 
 def read(whole: Source, begin: int, end: int, reader: Reader) -> tuple[Action, tuple[str, ...]] | None:
@@ -75,30 +83,42 @@ class _Entities(Scan):
     def listed(self, column: int, model: Model | None, depth: int) -> tuple[Any, ...]:
         """Return the list whose dashes stand in a column, from the next line on: of entities, else of actions."""
         found: list[Any] = []
-        while (line := self.dashed(column, depth)) is not None:
-            if line[NAME] is not None:
-                at = line.start(NAME) - line.start()
-                if model is None:
-                    found.append(self.action(at, depth + 1))
-                else:
-                    found.append(self.entity(at, None, depth + 1, model))
-                continue
-            self.line += 1
-            if line.lastindex not in BRACKETS:
+        lines, words = self.lines, self.words
+        number = self.line
+        while number < self.count:
+            line = lines[number]
+            indent, dash, key = line.group(INDENT, DASH, NAME)
+            if dash is None or len(indent) < column:
+                break
+            last = line.lastindex
+            if len(indent) > column or last == DASH or depth > DEEPEST:
                 raise UnlikeError
-            if model is None:
-                found.append(read_action(self.opened(line, None), self.places, self.reader))
+            words.append("-")
+            if key is None:
+                self.line = number + 1
+                found.append(self.item(line, number << GROUPS | OPEN, model))
+            elif model is None:
+                found.append(self.action(column + len(dash), depth + 1))
             else:
-                found.append(self.in_braces(line, self.line - 1 << GROUPS | OPEN, model))
+                found.append(self.entity(column + len(dash), None, depth + 1, model))
+            number = self.line
         return tuple(found)
+
+    def item(self, line: re.Match[str], head: int, model: Model | None) -> Any:  # noqa: ANN401 - an entity
+        """Return what stands in brackets behind a dash: an entity, else an action."""
+        if model is not None:
+            return self.in_braces(line, head, model)
+        if line.lastindex not in BRACKETS:
+            raise UnlikeError
+        return read_action(self.opened(line, None), self.places, self.reader)
 
     def action(self, column: int, depth: int) -> Action:
         """Return the action whose name begins in a column of the next line, and is the only key there."""
         number = self.line
         line = self.lines[number]
         self.line = number + 1
-        key, double, single, plain, opening = line.group(NAME, IN_DOUBLE, IN_SINGLE, BARE, OPEN)
-        if key is None or double is not None or single is not None or plain is not None:
+        key, opening = line.group(NAME, OPEN)
+        if key is None or line.lastindex not in _OPENING:
             raise UnlikeError
         self.words.append(key)
         model, head = action_model(key), number << GROUPS | NAME
@@ -131,14 +151,13 @@ class _Entities(Scan):
             if key is None:
                 raise UnlikeError
             words.append(key)
-            last: Any = line.lastindex
-            name = texts.get(key)
-            if (
-                name is not None
-                and name not in values
-                and (last == BARE or (last in _QUOTED and "\\" not in line[last] and "'" not in line[last]))
-            ):
-                values[name] = template(line[last], places, number << GROUPS | last, last != BARE, reader)
+            name, last = texts.get(key), line.lastindex
+            if last in PLAIN and name is not None and name not in values:
+                group = number << GROUPS | last
+                if last == WORD:
+                    values[name] = matched_words(line[WORD], False, places, group)
+                else:
+                    values[name] = template(line[BARE], places, group, False, reader)
                 number += 1
             else:
                 way = model.way(key, values)
@@ -160,9 +179,9 @@ class _Entities(Scan):
     def behind_key(self, line: re.Match[str], way: Way, column: int, depth: int) -> Any:  # noqa: ANN401 - of any field
         """Return what stands behind the key of the last line, or below it."""
         number, last = self.line - 1 << GROUPS, line.lastindex
-        if last == BARE:
-            return way.read((line[BARE], number | BARE, False), self.places, self.reader)
-        if last in (IN_DOUBLE, IN_SINGLE):
+        if last in PLAIN:
+            return way.read((line[last], number | last, False), self.places, self.reader)
+        if last in _QUOTED:
             return way.read(self.quoted(line, number, last), self.places, self.reader)
         if last in BRACKETS:
             return self.in_brackets(line, way, number | NAME)
@@ -197,17 +216,25 @@ class _Entities(Scan):
 
     def in_braces(self, line: re.Match[str], head: int, model: Model) -> Any:  # noqa: ANN401 - an entity
         """Return the entity that stands in braces behind a key, or behind a dash, up to the end of the line."""
-        if line.lastindex == SECOND:
-            key, text, other, also = line.group(FIRST_KEY, FIRST, SECOND_KEY, SECOND)
-            name, last = model.texts.get(key), model.texts.get(other)
-            if name is not None and last is not None and name != last:
+        last = line.lastindex
+        if last in TWO:
+            key, word, text, other, also = line.group(FIRST_KEY, FIRST_WORD, FIRST, SECOND_KEY, last)
+            first, second = model.texts.get(key), model.texts.get(other)
+            if first is not None and second is not None and first != second:
                 self.words += ("{", key, other)
                 places, reader, number = self.places, self.reader, self.line - 1 << GROUPS
-                made = {
-                    name: template(text, places, number | FIRST, False, reader),
-                    last: template(also, places, number | SECOND, False, reader),
-                }
+                made: dict[str, Any] = {}
+                if word is None:
+                    made[first] = template(text, places, number | FIRST, False, reader)
+                else:
+                    made[first] = matched_words(word, False, places, number | FIRST_WORD)
+                if last == SECOND:
+                    made[second] = template(also, places, number | SECOND, False, reader)
+                else:
+                    made[second] = matched_words(also, last == SECOND_QUOTED, places, number | last)
                 return model.made(made, places, head)
+        elif last != OPEN:
+            raise UnlikeError
         begin = line.start(OPEN)
         if self.text[begin] != "{":
             raise UnlikeError

@@ -38,23 +38,35 @@ _DOUBLE: Final = r'''"((?:[ !#-\[\]-~]++|\\["\\])*+)"'''
 _SINGLE: Final = r"'((?:[ -&(-~]++|'')*+)'"
 _REST: Final = rf" *+(?:(?<![^ \n]){_COMMENT})?+(?:\n|\Z)"
 _VALUE: Final = rf"{_DOUBLE}|{_SINGLE}"
-# Two plain texts in braces, up to the end of the line: as most parameters, remaps and arguments stand.
-_TWO: Final = rf"(?<=\{{) *+({_KEY}): ++({_IN_FLOW}) *+, *+({_KEY}): ++({_IN_FLOW}) *+\}}(?= *+(?:\n|\#|\Z))"
+# A text in which no call, nor anything else that means something, can stand; and such a one in quotes. A null ends so.
+_WORD: Final = r"(-{0,2}+[A-Za-z0-9_./][A-Za-z0-9_./-]*+)(?<!ull)(?<!ULL)"
+_IN_QUOTES: Final = r'"([ !#%&)-\[\]-~]++)"'
+# Two texts in braces, up to the end of the line: as most parameters, remaps and arguments stand.
+_TWO: Final = (
+    rf"(?<=\{{) *+({_KEY}): ++(?:{_WORD}(?= *+,)|({_IN_FLOW})) *+, *+"
+    rf"({_KEY}): ++(?:{_WORD}(?= *+\}})|{_IN_QUOTES}|({_IN_FLOW})) *+\}}(?= *+(?:\n|\#|\Z))"
+)
+# How nearly all lines end comes first.
 _LINE: Final = re.compile(
     rf"( *+)(- ++)?+(?:({_KEY}):(?=[ \n]|\Z) *+)?+"
-    rf"(?:{_VALUE}|({_PLAIN})|([\[{{])(?:{_TWO}|[^\n]*+))?+{_REST}|([^\n]*+\n?)"
+    rf"(?:{_WORD}\n|\n|(?:{_VALUE}|({_PLAIN})|([\[{{])(?:{_TWO}|[^\n]*+))?+(?:\n|{_REST}))|([^\n]*+\n?)"
 )
 _BEHIND: Final = re.compile(_REST)
 _ITEM: Final = re.compile(rf" *+(?:([\[{{])|(?:{_VALUE}|({_IN_FLOW})) *+([,\]}}]))")
 PAIR: Final = re.compile(rf" *+({_KEY}): ++(?:([\[{{])|(?:{_VALUE}|({_IN_FLOW})) *+([,\]}}]))")
+# A list of words on one line, as nearly all write them.
+_ITEM_IN_LIST: Final = r"-{0,2}+[A-Za-z0-9_./][A-Za-z0-9_./-]*+(?<!ull)(?<!ULL)"
+_LISTED: Final = re.compile(rf"{_ITEM_IN_LIST}(?:, {_ITEM_IN_LIST})*+\]")
 _ESCAPED: Final = re.compile(r'\\(["\\])')
 _NEXT: Final = re.compile(r" *+([,\]}])")
 # The groups of a line.
 _last_group: Final = attrgetter("lastindex")
-INDENT, DASH, NAME, IN_DOUBLE, IN_SINGLE, BARE, OPEN = range(1, 8)
-FIRST_KEY, FIRST, SECOND_KEY, SECOND, _ODD = range(8, 13)
-_SAID: Final = NAME, IN_DOUBLE, IN_SINGLE, BARE, OPEN
-BRACKETS: Final = frozenset({OPEN, SECOND})
+INDENT, DASH, NAME, WORD, IN_DOUBLE, IN_SINGLE, BARE, OPEN = range(1, 9)
+FIRST_KEY, FIRST_WORD, FIRST, SECOND_KEY, SECOND_WORD, SECOND_QUOTED, SECOND, _ODD = range(9, 17)
+_SAID: Final = NAME, WORD, IN_DOUBLE, IN_SINGLE, BARE, OPEN
+PLAIN: Final = frozenset({WORD, BARE})
+TWO: Final = frozenset({SECOND_WORD, SECOND_QUOTED, SECOND})
+BRACKETS: Final = frozenset({OPEN, *TWO})
 # Those of an item and of a pair in brackets.
 _DOUBLE_IN_ITEM, _SINGLE_IN_ITEM, _PLAIN_IN_ITEM = 2, 3, 4
 KEY_IN_PAIR, DOUBLE_IN_PAIR, SINGLE_IN_PAIR, PLAIN_IN_PAIR = 1, 3, 4, 5
@@ -86,7 +98,7 @@ class Scan:
         values: dict[str, Any] = {}
         lines, count, number = self.lines, self.count, self.line
         line = lines[number]
-        key, double, single, plain, opening = line.group(*_SAID)
+        key, word, double, single, plain, opening = line.group(*_SAID)
         if head is None:
             head = number << GROUPS | NAME
         words = self.words
@@ -94,8 +106,8 @@ class Scan:
             if key is None or key in values:
                 raise UnlikeError
             words.append(key)
-            if plain is not None:
-                values[key] = (plain, number << GROUPS | BARE, False)
+            if word is not None or plain is not None:
+                values[key] = (word or plain, number << GROUPS | (BARE if word is None else WORD), False)
                 number += 1
             elif double is not None or single is not None:
                 values[key] = self.quoted(line, number << GROUPS, IN_DOUBLE if single is None else IN_SINGLE)
@@ -111,7 +123,7 @@ class Scan:
             if number == count:
                 break
             line = lines[number]
-            indent, dash, key, double, single, plain, opening = line.group(INDENT, DASH, *_SAID)
+            indent, dash, key, word, double, single, plain, opening = line.group(INDENT, DASH, *_SAID)
             if dash is None and len(indent) == column:
                 continue
             if len(indent) >= column:
@@ -157,7 +169,7 @@ class Scan:
             if line.lastindex in BRACKETS:
                 items.append(self.opened(line, None))
             else:
-                items.append(self.scalar(line, self.line - 1 << GROUPS, line.lastindex == BARE))
+                items.append(self.scalar(line, self.line - 1 << GROUPS, line.lastindex in PLAIN))
         # It ends where the next thing begins.
         end = self.end if self.line == self.count else self.lines[self.line].end(INDENT)
         return Series(items, self.places.add((begin, end)), head)
@@ -207,8 +219,24 @@ class Scan:
         if opening == "{":
             values, at = self.pairs(begin + 1, depth)
             return Keys(values, head), at
+        listed = _LISTED.match(self.text, begin + 1, self.end)
+        if listed is not None:
+            return Series(
+                self.bare(listed), self.places.add((begin, listed.end())), head, bare=True
+            ), listed.end()
         items, at = self.items(begin + 1, depth)
         return Series(items, self.places.add((begin, at)), head), at
+
+    def bare(self, listed: re.Match[str]) -> list[Any]:
+        """Return the words of a list, up to its bracket."""
+        items: list[Any] = []
+        told, at = self.places.told, listed.start()
+        for word in listed[0][:-1].split(", "):
+            behind = at + len(word)
+            told.append((at, behind))
+            items.append((word, len(told) - 1 << GROUPS, False))
+            at = behind + 2
+        return items
 
     def pairs(self, at: int, depth: int) -> tuple[dict[str, Any], int]:
         """Return what stands in braces, and the offset behind it."""
