@@ -14,7 +14,7 @@ _OF_NODES = (b"node", b"Node", b"include", b"IncludeLaunchDescription", b"rclpy"
 _FILES = (".py", ".yaml", ".yml", ".xml", ".launch")
 _LIKELY = (None, "", "rmw_fastrtps_cpp")
 _ENOUGH = 1 << 18  # bytes of a launch file
-_WARM = rb"\"warm\": true"  # in a plan, which is a text in what is kept
+_WARM = b'"warm": {"warm": true'  # of a process in a plan, which stands as it is in what is kept
 
 
 def nodes_ahead(words: list[str]) -> bool:

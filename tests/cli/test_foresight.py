@@ -9,7 +9,12 @@ import pytest
 
 from orchestra.cli.foresight import nodes_ahead
 from orchestra.cli.remembered import kept, key
-from orchestra.witness.place import entry
+from orchestra.plan.model import Warm
+from orchestra.supervise.options import RunOptions
+from orchestra.supervise.resolver import document
+from orchestra.witness.record import Record
+from orchestra.witness.store import Store
+from tests.plan.records import plan, process
 
 _NODES = "launch:\n  - node: {pkg: demo, exec: talker}\n"
 _NONE = "launch:\n  - executable: {cmd: 'true'}\n"
@@ -26,13 +31,11 @@ def place(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
-def _remember(folder: Path, content: bytes) -> None:
+def _remember(folder: Path, kept_document: bytes) -> None:
     name = key(_WORDS)
     assert name is not None
-    path = Path(entry(str(folder / "cache/plans"), name))
-    path.parent.mkdir(parents=True)
-    path.write_bytes(content)
-    assert kept(_WORDS) == str(path)
+    Store(str(folder / "cache/plans")).write(name, Record(), {}, kept_document)
+    assert kept(_WORDS) is not None
 
 
 @pytest.mark.parametrize(("text", "likely"), [(_NODES, True), (_NONE, False), ("- include: {file: b}", True)])
@@ -62,7 +65,8 @@ def test_a_middleware_that_may_be_missing_is_waited_for(
 @pytest.mark.parametrize("likely", [True, False])
 def test_a_plan_that_is_remembered_tells_more(place: Path, likely: bool) -> None:
     (place / "a.launch.yaml").write_text(_NODES)
-    _remember(place, rb'{"document": "{\"warm\": {\"warm\": %b}}"}' % (b"true" if likely else b"false"))
+    how = Warm(likely, None if likely else "it is not")
+    _remember(place, document.dumps(plan(process("a", warm=how)), RunOptions()))
     assert nodes_ahead(_WORDS) is likely
 
 
