@@ -97,6 +97,15 @@ def whole_of(span: Span) -> Whole | None:
     return None if offsets is None else offsets[0]
 
 
+def all_of(span: Span) -> tuple[str, int, int, int, int]:
+    """Return all fields of a span; of one that is given by offsets they are not kept."""
+    offsets: tuple[Whole, int, int] | None = getattr(span, "_offsets", None)
+    if offsets is None:
+        return span.file, span.line, span.column, span.end_line, span.end_column
+    whole, begin, end = offsets
+    return (whole.file, *whole.place(begin), *whole.place(end))
+
+
 def stretches(span: Span, skipped: int = 0) -> Callable[[int, int], Span]:
     """Return what gives parts of a span that was made of offsets, by offsets from so far behind its beginning."""
     whole, begin, _ = span._offsets  # type: ignore[attr-defined] # noqa: SLF001 - its own module

@@ -25,12 +25,13 @@ Read: TypeAlias = Callable[[Any], Any]
 _SURROGATE = pattern("[\ud800-\udfff]")
 
 
-def dumps(plan: model.Plan | dict[str, Any], *, indent: int | None = None) -> str:
+def dumps(plan: model.Plan | dict[str, Any], *, indent: int | None = None, apart: type | None = None) -> str:
     """Return the plan, or what JSON data says of one, as JSON: the same plan always gives the same text.
 
     Texts that are no Unicode, as bytes of the command line may be, are written as escapes, so that it is always UTF-8.
+    Records of a type may stand `apart` (`text_of`).
     """
-    text = text_of(plan, indent)
+    text = text_of(plan, indent, apart)
     return text if text.isascii() else _SURROGATE.sub(lambda found: f"\\u{ord(found[0]):04x}", text)
 
 

@@ -1,4 +1,7 @@
-"""What the resolver hands to the supervisor: one JSON document with a plan and the options of the run."""
+"""What the resolver hands to the supervisor: one JSON document with a plan and the options of the run.
+
+In it where the values of a process come from stands between two marks, so that who reads it may pass it over.
+"""
 
 from __future__ import annotations
 
@@ -6,6 +9,7 @@ import json
 from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
 from orchestra.plan import codec, model
+from orchestra.plan.json_text import MARK
 from orchestra.supervise import options
 
 if TYPE_CHECKING:
@@ -27,14 +31,17 @@ class Document(NamedTuple):
 
 
 def dumps(plan: model.Plan, run_options: RunOptions) -> bytes:
-    """Return the document for the stream that `prepare` is given."""
-    return f"{_before(options.encode(run_options))}{codec.dumps(plan)}}}".encode("utf-8", "surrogatepass")
+    """Return the document for the stream that `prepare` is given: where values come from stands apart in it."""
+    told = codec.dumps(plan, apart=model.Provenance)
+    return f"{_before(options.encode(run_options))}{told}}}".encode("utf-8", "surrogatepass")
 
 
 def loads(content: bytes) -> Document:
     """Read a document. Raises `ValueError` where it is none."""
-    written = content.decode("utf-8", "surrogatepass")
-    document = json.loads(written)
+    parts = content.decode("utf-8", "surrogatepass").split(MARK)
+    written = "".join(parts)
+    # Of a large plan what nobody asks for is not read: it takes three times as long as all else.
+    document = json.loads("{}".join(parts[::2]) if len(parts) > 2 * _MOST_SHOWN else written)
     if not isinstance(document, dict) or document.keys() - {"plan", "options"} or "plan" not in document:
         raise ValueError("not an object with a plan")
     plan = document["plan"]
@@ -57,4 +64,4 @@ def _text(plan: dict[str, Any], before: str, written: str) -> str:
     """Return the plan for people, with a line for each value; a large one, which nobody reads so, as it is written."""
     if len(plan["processes"]) > _MOST_SHOWN and written.startswith(before):
         return f"{written[len(before) : -1]}\n"
-    return f"{codec.dumps(plan, indent=2)}\n"
+    return f"{codec.dumps(json.loads(written)['plan'], indent=2)}\n"
