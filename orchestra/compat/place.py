@@ -24,6 +24,9 @@ _MOST_CODES: Final = 256
 _names: dict[str, str] = {}
 # Where everything stands that is made now, whoever makes it.
 _standing: list[Place] = []
+# What code of a launch file constructs now, and the frame of that code.
+NOBODY: Final = (None, None)
+called: list[tuple[Any, FrameType | None]] = [NOBODY]
 _OWN = os.path.join(os.path.dirname(os.path.dirname(__file__)), "")  # noqa: PTH118, PTH120 - compared with file names of code
 OURS: Final = f"{__name__.partition('.')[0]}."
 # How deep whoever calls a constructor stands below `here`: above are ours, that and what reports wrong arguments.
@@ -185,6 +188,11 @@ def here(made: object = None, depth: int = 1) -> Place:
     """Return the place in the user's code that led to this call: where `made` was made, by whatever subclass."""
     if _standing:
         return _standing[-1].of(made)
+    known, caller = called[0]
+    if known is made and caller is not None:
+        code = caller.f_code
+        if code.co_name != "__init__" and not code.co_filename.startswith(_OWN):
+            return Place(code, caller.f_lasti, type(made))
     frame: FrameType | None = sys._getframe(depth)
     while frame is not None:
         found = frame
@@ -205,10 +213,8 @@ def _is_constructor(frame: FrameType, code: CodeType, made: object) -> bool:
 
 
 def is_ours(frame: FrameType) -> bool:
-    """Return whether what runs in a frame is part of Orchestra itself.
-
-    Its code is asked for only where its module does not tell: a process that is watched is told of that each time.
-    """
+    """Return whether what runs in a frame is part of Orchestra itself."""
+    # Its code is asked for only where its module does not tell: a process that is watched hears of that each time.
     name = frame.f_globals.get("__name__")
     return name.startswith(OURS) if type(name) is str else is_own(frame.f_code.co_filename)
 
@@ -273,6 +279,8 @@ def span_in(file: str, positions: _Positions) -> Span:
     line = line or 1
     if column is None or end_column is None or end_line is None:
         return Span(shown(file), line, 1, line, 1)
+    from orchestra.compat.columns import code_points  # noqa: PLC0415 - launch files in YAML and XML have no use for it
+
     begin = code_points(file, line, column)
     return Span(shown(file), line, begin + 1, end_line, code_points(file, end_line, end_column) + 1)
 
@@ -290,10 +298,3 @@ def shown(file: str) -> str:
 @lru_cache(maxsize=4096)
 def _shown(file: str, _working_directory: str) -> str:
     return displayed(file, real)
-
-
-def code_points(file: str, line: int, offset: int) -> int:
-    """Return a column in code points for one in bytes of UTF-8, as the compiler counts."""
-    from orchestra.compat import columns  # noqa: PLC0415 - launch files in YAML and XML have no use for it
-
-    return columns.code_points(file, line, offset)

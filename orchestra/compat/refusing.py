@@ -11,7 +11,7 @@ from contextlib import contextmanager
 from functools import wraps
 from typing import TYPE_CHECKING, Any, Final
 
-from orchestra.compat.place import OURS, is_ours
+from orchestra.compat.place import NOBODY, OURS, called, is_ours
 from orchestra.compat.reported import ReportedError
 
 if TYPE_CHECKING:
@@ -89,8 +89,11 @@ def _refusing(constructor: Callable[..., None]) -> Callable[..., None]:
             return
         try:
             if arguments or not self._taken(keywords, caller):
+                called[0] = self, caller
                 constructor(self, *arguments, **keywords)
+                called[0] = NOBODY
         except Exception as error:
+            called[0] = NOBODY
             # Here, because only mistakes need it, and what it imports.
             from orchestra.compat.refused_arguments import settled  # noqa: PLC0415
 

@@ -8,7 +8,8 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING, Final
 
-from orchestra.compat.place import code_points, shown
+from orchestra.compat.columns import code_points
+from orchestra.compat.place import shown
 from orchestra.location import Span
 
 if TYPE_CHECKING:

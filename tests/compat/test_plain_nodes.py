@@ -118,6 +118,7 @@ _CONDITIONS = st.sampled_from(
     [None, IfCondition(LaunchConfiguration("c")), UnlessCondition("false"), IfCondition("perhaps"), "x"]
 )
 _END = Shutdown()
+_PLACES = {"stdout": "screen", "stderr": "log"}
 _ARGUMENTS = st.fixed_dictionaries(
     {"executable": _TEXTS},
     optional={
@@ -127,7 +128,18 @@ _ARGUMENTS = st.fixed_dictionaries(
         "arguments": st.none() | st.lists(_TEXTS, max_size=3),
         "ros_arguments": st.none() | st.lists(_TEXTS, max_size=3),
         "output": st.sampled_from(
-            [None, "screen", "log", "both", "scren", ["screen"], LaunchConfiguration("o")]
+            [
+                None,
+                "screen",
+                "log",
+                "both",
+                "scren",
+                ["screen"],
+                LaunchConfiguration("o"),
+                _PLACES,
+                {"both": ["log"]},
+                {},
+            ]
         ),
         "emulate_tty": st.sampled_from([None, True, False, "true"]),
         "respawn": st.sampled_from([True, False, "true"]),

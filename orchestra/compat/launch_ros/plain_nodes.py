@@ -28,7 +28,7 @@ from orchestra.compat.launch_ros.plain_texts import (
 )
 from orchestra.compat.place import Arguments, Key, Place, ValueOf
 from orchestra.description.actions.node import Node as NodeModel
-from orchestra.description.outputs import OUTPUTS
+from orchestra.description.outputs import OUTPUTS, PLACES, STREAMS
 from orchestra.description.parts import Pair
 
 if TYPE_CHECKING:
@@ -199,12 +199,23 @@ def _delay(name: str, value: Any, call: Arguments, fields: dict[str, Any], kept:
 
 
 def _output(name: str, value: Any, call: Arguments, fields: dict[str, Any], kept: dict[str, Any]) -> None:
-    del kept
+    """Read where the output goes: one word, what a substitution comes to, or one place for each stream."""
+    if type(value) is dict:
+        if not (value and _STREAMS.issuperset(value) and all(map(_is_place, value.values()))):
+            raise UnusualError
+        places = value.items()
+        fields[name] = {stream: (plain_text(place, call, (name, stream)),) for stream, place in places}
+        kept[name] = value.copy()
+        return
     if type(value) is str and value not in OUTPUTS:
         raise UnusualError
     fields[name] = made = plain_text(value, call, (name,))
     if type(value) is not str and made.constant is not None:
         raise UnusualError
+
+
+def _is_place(value: Any) -> bool:
+    return type(value) is str and value in PLACES
 
 
 def _environment(
@@ -233,6 +244,7 @@ _OVERRIDE: Final = OVERRIDE.encode()
 # What a node has as long as it is plain: its place, its condition, and what it is made of.
 _OF_PLAIN: Final = 3
 _NUMBERS: Final = (int, float)
+_STREAMS: Final = frozenset(STREAMS)
 _READ: Final[dict[str, Callable[..., None] | str]] = {
     "package": "pkg",
     "executable": "exec",
