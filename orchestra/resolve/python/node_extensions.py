@@ -51,6 +51,7 @@ def extended(process: ResolvedProcess, action: NodeModel, run: Resolution) -> Re
         ros_arguments=(*(process.ros_arguments or ()), *found) if found else process.ros_arguments,
         name=_renamed(process.name, "name", arguments),
         namespace=_renamed(process.namespace, "ns", arguments),
+        environment={},  # filled in afterwards, as all is that tells how it runs
     )
 
 
