@@ -22,9 +22,9 @@ if TYPE_CHECKING:
     from orchestra.location import Span
 
 _DIGITS: Final = re.compile(r"[0-9]+")
+_QUOTES: Final = ("'", '"')
 DIGIT: Final = "0"  # it stands for a number in a skeleton
-# Of braces and of quotes at the end something may be told; what works with skeletons has characters of its own.
-_TOLD: Final = re.compile("[$][{[]|['\"]$|[\ue000-\uf8ff]")
+_TOLD: Final = ("${", "$[")  # as of quotes at the end
 
 
 class Nested(Pieces):
@@ -66,7 +66,12 @@ def known_shape(text: str) -> Shape | None:
 
 def nested(text: str) -> Nested | None:
     """Return what a text that stands in a file as it is read is made of; None where that takes a closer look."""
-    if len(text) > SHORT or _TOLD.search(text):
+    if (
+        len(text) > SHORT
+        or not text.isascii()
+        or text.endswith(_QUOTES)
+        or any(map(text.__contains__, _TOLD))
+    ):
         return None
     numbers = tuple(_DIGITS.findall(text))
     skeleton = _DIGITS.sub(DIGIT, text) if numbers else text

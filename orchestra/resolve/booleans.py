@@ -8,6 +8,8 @@ from orchestra.description.fields import FALSE_WORDS, TRUE_WORDS
 
 # What upstream takes for a condition, in lower case.
 CONDITION_WORDS: Final = frozenset({"true", "false", "1", "0"})
+# Those, and what expressions of Python give.
+PLAIN_CONDITIONS: Final = CONDITION_WORDS | {"True", "False"}
 
 
 def boolean(text: str) -> bool | None:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 from orchestra.errors import Code
 from orchestra.fields import replace
 from orchestra.location import is_python
-from orchestra.resolve.booleans import CONDITION_WORDS, boolean
+from orchestra.resolve.booleans import PLAIN_CONDITIONS, boolean
 from orchestra.resolve.context import Value
 from orchestra.resolve.impossible.comparisons import check_comparisons
 from orchestra.resolve.impossible.contradictions import check_contradiction, held
@@ -160,7 +160,7 @@ def wanted(action: Conditional, word: str, run: Resolution) -> bool:
     value = run.evaluate(template)
     holds = boolean(value.text) if isinstance(value, Value) else None
     if isinstance(value, Value):
-        if holds is not None and value.text not in CONDITION_WORDS:
+        if holds is not None and value.text not in PLAIN_CONDITIONS:
             # Here, because only what ROS 2 would refuse needs it.
             from orchestra.resolve.impossible.words import check_word  # noqa: PLC0415
 

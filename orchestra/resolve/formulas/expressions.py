@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     # Gives an argument of the function, None where that is none.
     Argument: TypeAlias = Callable[[Sequence[str], Sequence[str]], Any]
 
-_FEW: Final = 3  # up to here an expression takes more time to be compiled
+_FEW: Final = 12  # for fewer values and numbers it takes more time to be compiled
 _MOST: Final = 256  # pieces of an expression
 _LONGEST: Final = 15  # digits of a number
 # What stands for a piece while an expression is taken apart: one that is worked out, or a number.
@@ -30,8 +30,7 @@ _MARK: Final = pattern("([\ue100-\ue2ff])")
 _TOKEN: Final = pattern(
     rf" *+(?:({TEXT})|([\ue200-\ue2ff](?:\.[\ue200-\ue2ff])?+)(?![\w.\ue100-\ue2ff])|({CODE}))"
 )
-# What does not stand in a text of an expression as it is.
-_UNSAFE: Final = pattern("['\"\\\\\\r\\n\\0\ud800-\udfff]")
+_SAFE: Final = pattern(r"[\w ./:+-]*")  # it stands in a text of an expression as it is
 
 
 class Expression:
@@ -109,15 +108,18 @@ class Expression:
 
     def _number(self, text: str) -> Argument:
         pieces = self._pieces_of(text)
+        if len(pieces) == 1 and isinstance(pieces[0], int):
+            place = pieces[0]
+            return lambda _, numbers: _number(numbers[place])
         return lambda values, numbers: _number(filled(pieces, values, numbers))
 
 
 def _safe(slot: Slot) -> Slot:
-    """Return what gives the same, but for what an expression does not have in a text as it is."""
+    """Return what gives the same, but for what may not stand in a text of an expression as it is."""
 
     def safe(values: Sequence[str], numbers: Sequence[str]) -> str | None:
         text = slot(values, numbers)
-        return None if text is None or _UNSAFE.search(text) else text
+        return None if text is None or _SAFE.fullmatch(text) is None else text
 
     return safe
 
@@ -128,4 +130,4 @@ def _number(text: str | None) -> float | None:
         return None
     if "." in text:
         return float(text)
-    return int(text) if text[0] != "0" or len(text) == 1 else None
+    return int(text) if text == "0" or text[0] != "0" else None

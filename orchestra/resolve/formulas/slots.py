@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Final, TypeAlias
+from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
 from orchestra.resolve.booleans import boolean
 from orchestra.resolve.substitutions.arguments import truth
@@ -31,16 +31,15 @@ def slot_of(pieces: Sequence[Piece]) -> Slot:
 
 def filled(pieces: Iterable[Piece], values: Sequence[str], numbers: Sequence[str]) -> str | None:
     """Return what pieces come to together."""
-    texts = []
-    for piece in pieces:
-        if isinstance(piece, str):
-            texts.append(piece)
-            continue
-        text = numbers[piece] if isinstance(piece, int) else piece(values, numbers)
-        if text is None:
-            return None
-        texts.append(text)
-    return "".join(texts)
+    texts: list[Any] = [
+        piece
+        if isinstance(piece, str)
+        else numbers[piece]
+        if isinstance(piece, int)
+        else piece(values, numbers)
+        for piece in pieces
+    ]
+    return None if None in texts else "".join(texts)
 
 
 def calculating(name: str, arguments: Sequence[Slot]) -> Slot | None:

@@ -23,10 +23,9 @@ _COMPARISONS: Final = ("equals", "not-equals")
 # What there may be to tell.
 _NOTHING, _OF_CHOICES, _ANYTHING = range(3)
 _MARK: Final = "\ue000"  # what is substituted in an expression
-_TEXT: Final = r"""(?:'[^'\\\n]*+'|"[^"\\\n]*+")"""
-_CLAUSE: Final = rf"(?:{_TEXT} *+[=!]= *+{_TEXT}|[0-9.]++ *+[=!<>]=?+ *+[0-9.]++)"
-_CLAUSES: Final = pattern(rf"{_CLAUSE}(?: ++(?:and|or) ++{_CLAUSE})*+")
-_COMPARING: Final = pattern(r"[=!]=|\bin\b")
+_TEXT: Final = pattern(r"""'[^'\\\n]*'|"[^"\\\n]*\"""")
+_OF_TEXTS: Final = ("T==T", "T!=T")
+_OF_NUMBERS: Final = frozenset("0.=!<>")
 
 
 def may_be_told(nested: Nested, run: Resolution) -> bool:
@@ -36,7 +35,7 @@ def may_be_told(nested: Nested, run: Resolution) -> bool:
         formula.telling = max(map(_telling, _outside(formula.shape)), default=_NOTHING)
     if formula.telling != _OF_CHOICES or nested.names is None:
         return formula.telling != _NOTHING
-    return any(run.found.choices_of(name) is not None for name in nested.names)
+    return bool(run.found.choices) and any(run.found.choices_of(name) is not None for name in nested.names)
 
 
 def may_be_bare(nested: Nested) -> bool:
@@ -80,10 +79,11 @@ def _telling(call: Part) -> int:
 
 def _telling_of_expression(shape: Shape) -> int:
     text = "".join([part.text if part.arguments is None else _MARK for part in shape.parts]).strip()
-    if _MARK not in text or _COMPARING.search(text) is None:
+    if _MARK not in text or not any(word in text for word in ("==", "!=", "in")):
         return _NOTHING
-    if _CLAUSES.fullmatch(text) is not None:
-        return _OF_CHOICES
+    clauses = _TEXT.sub("T", text).replace(" ", "").replace("or", "and").split("and")
+    if all(clause in _OF_TEXTS or _OF_NUMBERS.issuperset(clause) for clause in clauses):
+        return _OF_CHOICES  # of texts and of numbers, as most of them are
     import ast  # noqa: PLC0415 - slow, and few conditions are other expressions
 
     try:

@@ -39,7 +39,13 @@ _COMPARED: Final[dict[str, Any]] = {
     ">": operator.gt,
     ">=": operator.ge,
 }
-_CONSTANTS: Final = pattern(rf"(?: |{TEXT}|[0-9]++(?:\.[0-9]++)?+(?![\w.])|{CODE})++")
+_NUMBER: Final = r"[0-9]++(?:\.[0-9]++)?+(?![\w.])"
+_CONSTANTS: Final = pattern(rf"(?: |{TEXT}|{_NUMBER}|{CODE})++")
+# With products, where there is nothing that could be repeated.
+_NUMBERS: Final = pattern(
+    rf"(?: |{_NUMBER}|(?:and|or|not|if|else|True|False|abs|bool|float|int|round)(?!\w)"
+    r"|[=!<>]=|<(?!<)|>(?!>)|\*(?!\*)|[%+()-]|//?)++"
+)
 
 
 @lru_cache(maxsize=512)
@@ -54,7 +60,11 @@ def of_constants(expression: str) -> str | None:
             return str(_COMPARED[compared](text[1:-1], other_text[1:-1]))
         if number is not None and other_number is not None:
             return str(_COMPARED[compared](int(number), int(other_number)))
-    if _CONSTANTS.fullmatch(expression) is None or MISUSED.search(expression) is not None:
+    if _CONSTANTS.fullmatch(expression) is None and (
+        "*" not in expression or _NUMBERS.fullmatch(expression) is None
+    ):
+        return None
+    if MISUSED.search(expression) is not None:
         return None
     try:
         text = str(eval(expression, {"__builtins__": FUNCTIONS}))  # noqa: S307 - of constants

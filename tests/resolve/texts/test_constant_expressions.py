@@ -73,6 +73,8 @@ _PIECES = (
         ("'Sim'.lower() in ['sim', 'real']", "True"),
         ("'a' if 'sim'.startswith('s') else 'b'", "a"),
         ("'a' 'b'", "ab"),
+        ("3 * (2.5 - 1) >= 4", "True"),
+        ("'a*' == 'b' or '*' in 'a*'", "True"),
     ],
 )
 def test_constants_are_compared_and_counted(expression: str, text: str) -> None:
@@ -82,7 +84,21 @@ def test_constants_are_compared_and_counted(expression: str, text: str) -> None:
 @pytest.mark.parametrize(
     "expression",
     [
-        *("x", "1 / 0", "'a' < 1", "9 ** 9", "1 << 9", "'a' * 9", "'a'('b')", "1if 1 else 2", "f'{1}'"),
+        *(
+            "x",
+            "1 / 0",
+            "'a' < 1",
+            "9 ** 9",
+            "1 << 9",
+            "'a' * 9",
+            "[1] * 9",
+            "(1,) * 9",
+            "2 ** 3 * 2",
+            "str(1) * 2",
+            "'a'('b')",
+            "1if 1 else 2",
+            "f'{1}'",
+        ),
         *("'\\d'", "'a' is 'a'", "", "1 +", "(1", "__import__('os')", "'a'.join('b')", "1\n+ 1"),
         *(
             "'a'['b']",
