@@ -22,7 +22,10 @@ if TYPE_CHECKING:
 
 
 class Part(NamedTuple):
-    """A section: its values by name, and all names that it takes; `values` is None where some are in the way."""
+    """A section: its values by name, and all names that it takes; `values` is None where some are in the way.
+
+    It is the one that was read for nobody.
+    """
 
     section: Section
     values: dict[str, ParameterValue] | None
@@ -179,7 +182,7 @@ class Layers:
             given.following[key] = None
             return None
         layers = _layers(given)
-        plain = all(_take(layers, part, self._nothing) for part in self.parts(source, "/"))
+        plain = all(_take(layers, part, self._nothing) for part in self._parts_of(source, "/"))
         blocks = {pattern: layer.block for pattern, layer in layers.items()}
         further = given.following[key] = _Given(blocks) if plain else None
         return further
@@ -193,11 +196,11 @@ class Layers:
             if type(source) is InlineParameter and not source.everywhere:
                 if source.value is None or not _set(layers, own, source, self._nothing):
                     return None
-            elif not all(_take(layers, part, self._nothing) for part in self.parts(source, full)):
+            elif not all(_take(layers, part, self._nothing) for part in self._parts_of(source, full)):
                 return None
         return _merged([layer.values for layer in layers.values()])
 
-    def parts(self, source: ParameterSource, full: str | None) -> Sequence[Part]:
+    def _parts_of(self, source: ParameterSource, full: str | None) -> Sequence[Part]:
         """Return the sections that are for a node, each with what it sets."""
         if isinstance(source, InlineParameter):
             known = self._parts.get(id(source))
@@ -205,9 +208,11 @@ class Layers:
                 known = self._parts[id(source)] = _part(self._section(source))
             return (known,)
         index = self._index(source.sections)
-        return list(map(self._part, index.everywhere() if full is None else index.matching(full)))
+        return list(map(self.part, index.everywhere() if full is None else index.matching(full)))
 
-    def _part(self, section: Section) -> Part:
+    def part(self, section: Section) -> Part:
+        """Return a section with what it sets."""
+        section = section.shared
         known = self._parts.get(id(section))
         if known is None:
             known = self._parts[id(section)] = _part(section)

@@ -27,7 +27,6 @@ from orchestra.values import ParameterValue
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
-    from orchestra.plan.layers import Part
     from orchestra.plan.passed_on import Content
     from orchestra.resolve.model import (
         ParameterSource,
@@ -151,12 +150,12 @@ def _inline_once(parameters: Sequence[ParameterSource]) -> dict[str, ParameterVa
 
 def _each_once(
     parameters: Sequence[ParameterSource], own: str, full: str | None, sections: Sections
-) -> dict[str, list[InlineParameter | Part]] | None:
+) -> dict[str, list[InlineParameter | Section]] | None:
     """Return what sets parameters by pattern, the patterns in the order in which they appear first.
 
     None where one is written twice, or may take the slot of another, and for files of a node without a name.
     """
-    found: dict[str, list[InlineParameter | Part]] = {}
+    found: dict[str, list[InlineParameter | Section]] = {}
     taken: set[str] = set()
     for source in parameters:
         if type(source) is InlineParameter:
@@ -171,23 +170,24 @@ def _each_once(
             continue
         if full is None:
             return None
-        for part in sections.layers.parts(source, full):
+        for section in sections.of_file(source, full):  # type: ignore[arg-type]  # the other kind of source
+            part = sections.layers.part(section)
             if part.values is None or not taken.isdisjoint(part.names):
                 return None
             taken.update(part.names)
-            found.setdefault(part.section.pattern, []).append(part)
+            found.setdefault(section.pattern, []).append(section)
     return found
 
 
 def _told(
-    source: InlineParameter | Part, rule: str, known: candidates.Origins
+    source: InlineParameter | Section, rule: str, known: candidates.Origins
 ) -> Iterator[tuple[str, tuple[Candidate, ...]]]:
     """Yield the names of parameters with the one value that is written for each."""
     if isinstance(source, InlineParameter):
         through = candidates.passage(source.through)
         yield source.name, (new_candidate(source.value, source.location, True, rule, through),)
         return
-    for name, entry in (alone(source.section) or ({}, ()))[0].items():
+    for name, entry in (alone(source) or ({}, ()))[0].items():
         through = candidates.behind(entry.location, known)
         yield name, (new_candidate(entry.value, entry.location, True, rule, through),)
 

@@ -145,6 +145,7 @@ class Sections:
 
     def _block(self, section: Section) -> _Block:
         """Return the pattern of a section, all names that it takes and its lines, None where some are in the way."""
+        section = section.shared
         known = self._blocks.get(id(section))
         if known is None:
             entries = alone(section)

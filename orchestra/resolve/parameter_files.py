@@ -23,7 +23,7 @@ from orchestra.resolve.rcl.files import read_kept, read_plain_file
 from orchestra.resolve.rcl.sections import included
 from orchestra.resolve.rcl.straight import sections_of
 from orchestra.resolve.rcl.strays import SECTION_KEY
-from orchestra.resolve.substituted import Back, Reads, placed_back, substituted
+from orchestra.resolve.substituted import Back, Reads, evaluated, placed_back, substituted
 from orchestra.witness.once import once, real
 
 if TYPE_CHECKING:
@@ -140,25 +140,24 @@ def read_file(
     back: Back | None = None
     reads: Reads = ()
     if substitute:
-        evaluated = substituted(text, file, replace(run.context, included_from=chain))
-        if evaluated is None:
+        known = substituted(text, file, replace(run.context, included_from=chain))
+        if known is None:
             return None
-        text, back, reads = evaluated
+        (text, back), reads = evaluated(text, file, known[0]), known[1]
     bare = plain and SECTION_KEY not in text
-    sections, whole, found = _read(text, file, bare=bare)
+    sections, whole, found = (
+        _read(text, file, bare=bare) if back is None else _read_back(text, file, back, bare=bare)
+    )
     if not sections and _is_refused(path, text, location, run):
         return None
     for problem in found:
-        span = back(problem.span) if back is not None and problem.span is not None else problem.span
-        run.problems.report(replace(problem, span=span, included_from=(*problem.included_from, *chain)))
+        run.problems.report(replace(problem, included_from=(*problem.included_from, *chain)))
     sound = all(problem.severity is not Severity.ERROR for problem in found)
     if not sound and not (whole and sections):
         return None
     sections = tuple(included(section, chain) for section in sections)
     if not substitute and "$(" in text:
         _warn_of_kept(sections, location, run)
-    if back is not None:
-        sections = tuple(placed_back(section, back) for section in sections)
     if bare:
         return FileParameters(
             path, (), location, plain=tuple(item for part in sections for item in part.entries), within=reads
@@ -198,6 +197,16 @@ def _read(text: str, file: str, *, bare: bool) -> tuple[tuple[Section, ...], boo
     if plain is not None:
         return plain, True, ()
     return *read_kept(text, file, found), tuple(found)
+
+
+@lru_cache(maxsize=64)  # as above
+def _read_back(
+    text: str, file: str, back: Back, *, bare: bool
+) -> tuple[tuple[Section, ...], bool, tuple[Problem, ...]]:
+    """Return the same of a text with the values of substitutions, with its places in the file itself."""
+    sections, whole, found = _read(text, file, bare=bare)
+    problems = [item if item.span is None else replace(item, span=back(item.span)) for item in found]
+    return tuple([placed_back(section, back) for section in sections]), whole, tuple(problems)
 
 
 def _text(path: str, location: Location, chain: tuple[Span, ...], run: Resolution) -> str | None:

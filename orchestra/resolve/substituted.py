@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from bisect import bisect_right
 from collections.abc import Callable
+from functools import lru_cache
 from typing import TYPE_CHECKING, TypeAlias
 
 from orchestra.dataclass import dataclass
@@ -16,6 +17,8 @@ from orchestra.resolve.context import Value
 from orchestra.resolve.evaluate import perform
 
 if TYPE_CHECKING:
+    from orchestra.description.text import Template
+    from orchestra.errors import Problem
     from orchestra.location import Location, Span
     from orchestra.resolve.context import Context, Read
     from orchestra.resolve.rcl.sections import Entry, Section
@@ -24,36 +27,52 @@ Back: TypeAlias = Callable[["Span"], "Span"]
 Reads: TypeAlias = "tuple[tuple[Span, tuple[Read, ...]], ...]"
 
 
-def substituted(text: str, file: str, context: Context) -> tuple[str, Back, Reads] | None:
-    """Return a text evaluated, with a function from its spans to those of the file; None where it is faulty.
+def substituted(text: str, file: str, context: Context) -> tuple[tuple[str, ...], Reads] | None:
+    """Return what the substitutions in a text come to, in order; None where it is faulty.
 
     With it comes what was read for each substitution that read something.
 
     As upstream, backslashes escape in the whole text. What is faulty has been reported to the context's collector.
     """
-    whole = source(file, text)
-    found = Problems()
-    template = parse_template(text, whole.span, found)
+    template, found = _parsed(text, file)
     for problem in found:
         context.problems.report(replace(problem, included_from=context.included_from))
-    made = _Made(whole)
     sound = not template.faulty
+    values: list[str] = []
     read: list[tuple[Span, tuple[Read, ...]]] = []
     for part in template.parts:
         if isinstance(part, Words):
-            made.words(part)
             continue
         with context.variables.tracing() as reads:
             value = perform(part, context)
         if isinstance(value, Value):
-            made.value(value.text, part.span)
+            values.append(value.text)
             read += [(part.span, tuple(reads))] if reads else []
         else:
             sound = False
-    if not sound:
-        return None
-    evaluated = source(file, "".join(made.texts))
-    return evaluated.text, lambda span: made.back(span, evaluated), tuple(read)
+    return (tuple(values), tuple(read)) if sound else None
+
+
+@lru_cache(maxsize=64)  # by content: many nodes are given the same file
+def _parsed(text: str, file: str) -> tuple[Template, tuple[Problem, ...]]:
+    """Return the parts of a text, and what is wrong with it."""
+    found = Problems()
+    template = parse_template(text, source(file, text).span, found)
+    return template, tuple(found)
+
+
+@lru_cache(maxsize=64)  # as above
+def evaluated(text: str, file: str, values: tuple[str, ...]) -> tuple[str, Back]:
+    """Return a text with the values of its substitutions, with a function from its spans to those of the file."""
+    made = _Made(source(file, text))
+    following = iter(values)
+    for part in _parsed(text, file)[0].parts:
+        if isinstance(part, Words):
+            made.words(part)
+        else:
+            made.value(next(following), part.span)
+    whole = source(file, "".join(made.texts))
+    return whole.text, lambda span: made.back(span, whole)
 
 
 def placed_back(section: Section, back: Back) -> Section:
