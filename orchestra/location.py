@@ -64,10 +64,7 @@ class Span:  # noqa: PLW1641 - its hash is that of its fields
                 return self._offsets[0].file
             if name not in FIELDS:
                 raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
-            whole, begin, end = self._offsets
-            for known, value in zip(
-                FIELDS, (whole.file, *whole.place(begin), *whole.place(end)), strict=True
-            ):
+            for known, value in zip(FIELDS, all_of(self), strict=True):
                 object.__setattr__(self, known, value)
             return object.__getattribute__(self, name)
 
