@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import re
 from typing import TYPE_CHECKING
 
+from orchestra.patterns import pattern
 from orchestra.resolve.context import POISON, Poison, Value
 from orchestra.resolve.model import NamedSchema
 from orchestra.resolve.paths import beside, existing_file
@@ -14,8 +14,8 @@ if TYPE_CHECKING:
     from orchestra.resolve.resolution import Resolution
 
 _WORD = r"[^\W\d]\w*"
-_MODEL = re.compile(rf"(?P<module>{_WORD}(?:\.{_WORD})*):(?P<name>{_WORD}(?:\.{_WORD})*)")
-_DOTTED = re.compile(rf"(?P<module>{_WORD}(?:\.{_WORD})*)\.(?P<name>[A-Z]\w*)")
+_MODEL = pattern(rf"(?P<module>{_WORD}(?:\.{_WORD})*):(?P<name>{_WORD}(?:\.{_WORD})*)")
+_DOTTED = pattern(rf"(?P<module>{_WORD}(?:\.{_WORD})*)\.(?P<name>[A-Z]\w*)")
 
 
 def params_schema(written: Template | None, run: Resolution) -> NamedSchema | Poison | None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import re
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -13,6 +12,7 @@ from orchestra.dataclass import dataclass
 from orchestra.errors import DescriptionError, Problems, UsageError
 from orchestra.fields import field, replace
 from orchestra.location import displayed, is_file
+from orchestra.patterns import pattern
 from orchestra.plan.model import Plan
 
 if TYPE_CHECKING:
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from orchestra.resolve.packages import InstalledPackages
 
 # A saved plan begins with its version, in JSON and in YAML.
-_SAVED = re.compile(r"\s*(?:\{\s*\"version\"|version)\s*:\s*\d+\s*,?\s*\"?file\"?\s*:")
+_SAVED = pattern(r"\s*(?:\{\s*\"version\"|version)\s*:\s*\d+\s*,?\s*\"?file\"?\s*:")
 _BEGINNING = 200
 
 
@@ -87,7 +87,9 @@ def is_saved(path: str) -> bool:
     if not is_file(path):
         return False
     with open(path, encoding="utf-8", errors="replace") as file:  # noqa: PTH123 - may be any path
-        return _SAVED.match(file.read(_BEGINNING)) is not None
+        begin = file.read(_BEGINNING)
+    # Seldom more than one look is needed, and an expression has to be compiled for it.
+    return begin.lstrip().startswith(("{", "version")) and _SAVED.match(begin) is not None
 
 
 def refuse_words(words: Sequence[str], path: str) -> None:

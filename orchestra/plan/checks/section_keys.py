@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from orchestra.fields import replace
+from orchestra.patterns import pattern
 
 if TYPE_CHECKING:
     from orchestra.location import Location
@@ -14,7 +15,7 @@ if TYPE_CHECKING:
 
 _ANY_NODE: Final = frozenset({"node", "ros", "ros2"})  # words that a name has or has not
 _WILDCARDS: Final = frozenset({"*", "**"})
-_KEY: Final = re.compile(r"( *)([\w/]+):\s*(?:#.*)?$")
+_KEY: Final = pattern(r"( *)([\w/]+):\s*(?:#.*)?$")
 
 
 def key_for(section: Section, name: str) -> str | None:
