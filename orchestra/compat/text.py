@@ -11,8 +11,9 @@ from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
 from orchestra.compat.launch.substitution import Substitution
 from orchestra.compat.launch.substitutions.text_substitution import TextSubstitution, text_of
+from orchestra.compat.place import Argument, Arguments, Place
 from orchestra.compat.wrong import WrongType
-from orchestra.description.text import new_template, new_words
+from orchestra.description.text import matched_words, new_template, new_words
 from orchestra.description.written import escaped
 
 if TYPE_CHECKING:
@@ -40,6 +41,12 @@ def template(subs: Sub, span: Span, *, quoted: bool = False) -> Template:
     if type(subs) in _SERIES and len(subs) == 1 and type(subs[0]) is TextSubstitution:  # type: ignore[arg-type,index] # as it says
         subs = subs[0].text  # type: ignore[index] # as above
     if type(subs) is str:
+        if type(span) is Argument and "$" not in subs and "\\" not in subs:
+            place, path = span.place, span.path
+            if (
+                type(place) is Place and path
+            ):  # the same, of which words and place are made when somebody asks
+                return matched_words(subs, quoted, Arguments(place), path)  # type: ignore[arg-type] # its groups are paths
         return new_template((new_words(subs, span),) if subs else (), escaped(subs), span, quoted)
     items = _items(subs, span)
     parts: tuple[Part, ...] = ()

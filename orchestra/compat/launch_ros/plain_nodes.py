@@ -67,15 +67,6 @@ class PlainNode(MadeLater, ExecuteProcess):
         if made.prepared is not None:
             self._prepared_by(made.prepared)
 
-    def _plainly(self) -> Made | None:
-        """Return what the node is made of as long as nobody has asked for more, or set something."""
-        own = vars(self)
-        made: Made | None = own.get("_plain")
-        if made is not None and len(own) > _OF_PLAIN:
-            self._construct()
-            return None
-        return made
-
     def _resolved_by(self, names: Callable[[], tuple[Any, ...]]) -> None:
         """Take note of what gives what a visit has come to."""
         made: Made | None = vars(self).get("_plain")
@@ -95,13 +86,15 @@ class PlainNode(MadeLater, ExecuteProcess):
             super()._prepared_by(details)
 
     def _to_model(self, common: Mapping[str, Any]) -> Model:
-        made = self._plainly()
-        model: Model | None = None if made is None else _model(made, type(self)._usual, self._place, common)
-        if model is None:
-            if made is not None:
-                self._construct()
-            return super()._to_model(common)
-        return model
+        own = vars(self)
+        made: Made | None = own.get("_plain")
+        if made is not None:  # nobody has asked for more
+            if len(own) == _OF_PLAIN:  # nor set something
+                model: Model | None = _model(made, type(self)._usual, self._place, common)
+                if model is not None:
+                    return model
+            self._construct()
+        return super()._to_model(common)
 
 
 def _says_output(environ: Any) -> bool:

@@ -54,6 +54,8 @@ class LaunchConfiguration(ParsedSubstitution):
         return (name,) if self.__default is None else (name, self.__default)
 
     def _whole(self) -> Template | None:
+        if self._sure is not None and type(self).perform is PERFORM:
+            return self._sure
         name, place, kept = self.__variable_name, self._place, self._kept
         if self.__default is not None or type(self).perform is not PERFORM:
             return super()._whole()
