@@ -38,9 +38,11 @@ def output(
     everywhere = run.inputs.environment.get(_OVERRIDE)
     if everywhere:
         return _overridden(everywhere, run, at)
+    if written is None:
+        return None
     if type(written) is MatchedTemplate and written.constant in OUTPUTS:
         return written.constant
-    if written is None or isinstance(written, Template):
+    if isinstance(written, Template):
         return run.word(written, OUTPUTS)
     places: Places = {}
     for stream in STREAMS:

@@ -38,18 +38,18 @@ _NOWHERE: dict[str, tuple[EnvironmentChange, ...]] = {}  # nobody changes it
 
 
 def add_process(action: Running, program: ResolvedProcess, run: Resolution) -> int:
-    """Add a process to what has been found, with how it runs; return its index.
+    """Add a process to what has been found, with how it runs; return its index. It knows its `origin`.
 
     It starts with the run, or with the timer around it.
     """
     process: Any = program  # which nobody else has
-    frame, found, occasion = run.frame, run.found.processes, run.occasion
+    frame, found, occasion = run.frames[-1] if run.frames else run.frame, run.found.processes, run.occasion
     process.depends_on, process.labels = frame.depends_on, frame.labels
     # What one in Python said of conditions is not known.
     process.conditional = run.conditions > 0 or occasion is not None
-    if action.origin is not None:
-        process.origin, process.around, process.conditional = action.origin, run.around, True
-    elif run.around:
+    if process.origin is not None:
+        process.conditional = True
+    if run.around:
         process.around = run.around
     scope = run.scope
     if _says_nothing(action) and scope.variables.keys().isdisjoint(_FOR_ALL):

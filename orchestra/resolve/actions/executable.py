@@ -35,6 +35,7 @@ def visit(action: Executable, run: Resolution) -> None:
     process: Any = _new(ResolvedProcess)  # what is not said of it is as the class has it
     process.kind = "process"
     process.location = at
+    process.origin = action.origin
     process.program = () if isinstance(words, Poison) else words
     process.executable = _called(process.program[0]) if process.program else raw_of(action.cmd)
     process.namespace = namespace if isinstance(namespace, Value) else None

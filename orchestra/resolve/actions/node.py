@@ -57,6 +57,7 @@ def start(action: Node, kind: Kind, run: Resolution, *, autostart: bool | Poison
     process: Any = _new(ResolvedProcess)  # what is not said of it is as the class has it
     process.kind = kind
     process.location = action.location(run.context.included_from)
+    origin = process.origin = action.origin
     process.package, process.executable, process.program, process.share, process.through, faulty = program
     if process.executable is None:
         process.executable = _started(action).raw
@@ -78,8 +79,8 @@ def start(action: Node, kind: Kind, run: Resolution, *, autostart: bool | Poison
         faulty |= _declare(process, action.params_schema, run)
     process.autostart = autostart is True
     process.faulty = faulty or not whole or not regular or autostart is POISON
-    if action.origin is not None:
-        _tell(action.origin, process)
+    if origin is not None:
+        _tell(origin, process)
     if run.nodes_are_extended() and not process.faulty:
         process = _extended(process, action, run)
     return add_process(action, process, run)
