@@ -42,6 +42,7 @@ class Sections:
         self._files: dict[int, Indexed] = {}
         self._others: dict[int, _Others] = {}
         self._passed_on: dict[tuple[object, ...], str] = {}
+        self._alike: dict[tuple[int, ...], Content | None] = {}
         # By identities: entries and sections are kept, so that no others get theirs.
         self._lines: dict[tuple[str, int], tuple[Entry, str]] = {}
         self._blocks: dict[int, tuple[Section, _Block]] = {}
@@ -81,6 +82,17 @@ class Sections:
         Of a node whose full name is not known its own sections are among them, and of one without a name all are.
         None where there are none.
         """
+        given = tuple(
+            [id(item.sections) if type(item) is FileParameters else id(item) for item in node.parameters]
+        )
+        if given in self._alike:
+            return self._alike[given]
+        content = self._of_node(node, own)
+        if not self.given and all(map(self._is_for_any, node.parameters)):
+            self._alike[given] = content
+        return content
+
+    def _of_node(self, node: ResolvedProcess, own: str) -> Content | None:
         known = own != EVERY_NODE
         sources = [item for item in node.parameters if not _is_own(item)] if known else node.parameters
         if not (sources or self.given):
@@ -193,6 +205,12 @@ class Sections:
     def _is_named(self, name: str, source: InlineParameter | FileParameters) -> bool:
         """Return whether a file has a section that is for a node of this name alone."""
         return type(source) is FileParameters and name in self._others_of(source.sections).named
+
+    def _is_for_any(self, source: InlineParameter | FileParameters) -> bool:
+        """Return whether of a source the same is passed on for whatever node."""
+        return not (
+            _is_own(source) if isinstance(source, InlineParameter) else self._others_of(source.sections).named
+        )
 
     def _others_of(self, sections: tuple[Section, ...]) -> _Others:
         others = self._others.get(id(sections))
