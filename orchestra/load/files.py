@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import sys
 from importlib import import_module
 from typing import TYPE_CHECKING, cast
 
@@ -38,6 +39,7 @@ ONE_BY_ONE: dict[str, str] = {"xml_file": "xml_items", "yaml_file": "yaml_items"
 _LARGEST = 64 * 1024 * 1024
 _PIECE = 64 * 1024  # of a file that does not say how long it is
 _LONG = 1_000  # characters
+_READER = "orchestra.load.alike.one_by_one"
 _OF_SHELLS = pattern(r"\$[A-Za-z_{]")
 
 
@@ -66,7 +68,7 @@ def load(
     if text is None:
         return None
     foreign = _may_be_foreign(text)
-    actions = _one_by_one(text, file, module, reader) if len(text) >= _LONG else None
+    actions = _one_by_one(text, file, module, reader) if _pays(text) else None
     if actions is not None:
         return Description(path, file, actions, foreign=foreign)
     tree = import_module(f"orchestra.load.{module}").read(text, file, reader)
@@ -87,6 +89,11 @@ def _may_be_foreign(text: str) -> bool:
     """Return whether there may be a variable in a text as other languages write them; counting is the fastest way."""
     dollars = text.count("$") > text.count("$(") and _OF_SHELLS.search(text) is not None
     return dollars or "{{" in text or any(map(text.__contains__, _OF_PYTHON))
+
+
+def _pays(text: str) -> bool:
+    """Return whether to read a file action by action: a long one, and any other once what does so is imported."""
+    return len(text) >= _LONG or _READER in sys.modules
 
 
 def _one_by_one(text: str, file: str, module: str, reader: Reader) -> tuple[Action, ...] | None:

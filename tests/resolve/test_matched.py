@@ -71,7 +71,7 @@ _SCALARS = (
 
 def _read(folder: Path, monkeypatch: pytest.MonkeyPatch, *, by_forms: bool) -> tuple[Any, ...]:
     monkeypatch.setattr(yaml_items, "FORMS", Forms())
-    monkeypatch.setattr(files, "_LONG", 0 if by_forms else 2**31)
+    monkeypatch.setattr(files, "_pays", lambda _: by_forms)
     problems = Problems()
     inputs = inputs_from([], environment={"PATH": "/bin", "E": "e"})
     plan = collect(str(folder / "a.launch.yaml"), inputs, problems)

@@ -81,7 +81,7 @@ def _condition(rnd: Random, depth: int = 0) -> str:
 
 
 def _plan(folder: Path, monkeypatch: pytest.MonkeyPatch, *, line_by_line: bool) -> tuple[Any, ...]:
-    monkeypatch.setattr(files, "_LONG", 0 if line_by_line else 2**31)
+    monkeypatch.setattr(files, "_pays", lambda _: line_by_line)
     problems = Problems()
     plan = collect(str(folder / "a.launch.yaml"), inputs_from([], environment={"PATH": "/bin"}), problems)
     return plan and codec.dumps(plan), problems.ordered
