@@ -23,7 +23,7 @@ from orchestra.resolve.rcl.files import read_kept, read_plain_file
 from orchestra.resolve.rcl.sections import included
 from orchestra.resolve.rcl.straight import sections_of
 from orchestra.resolve.rcl.strays import SECTION_KEY
-from orchestra.resolve.substituted import Back, Reads, evaluated, placed_back, substituted
+from orchestra.resolve.substituted import Back, Reads, placed_back, substituted
 from orchestra.witness.once import once, real
 
 if TYPE_CHECKING:
@@ -143,7 +143,7 @@ def read_file(
         known = substituted(text, file, replace(run.context, included_from=chain))
         if known is None:
             return None
-        (text, back), reads = evaluated(text, file, known[0]), known[1]
+        text, back, reads = known
     bare = plain and SECTION_KEY not in text
     sections, whole, found = (
         _read(text, file, bare=bare) if back is None else _read_back(text, file, back, bare=bare)

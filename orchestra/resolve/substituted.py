@@ -11,14 +11,15 @@ from orchestra.dataclass import dataclass
 from orchestra.description.text import Words
 from orchestra.errors import Problems
 from orchestra.fields import field, replace
-from orchestra.load.grammar import parse_template
+from orchestra.load.grammar import by_itself, parse_template
 from orchestra.load.offsets import Source, source
 from orchestra.resolve.context import Value
 from orchestra.resolve.evaluate import perform
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from orchestra.description.text import Template
-    from orchestra.errors import Problem
     from orchestra.location import Location, Span
     from orchestra.resolve.context import Context, Read
     from orchestra.resolve.rcl.sections import Entry, Section
@@ -27,16 +28,15 @@ Back: TypeAlias = Callable[["Span"], "Span"]
 Reads: TypeAlias = "tuple[tuple[Span, tuple[Read, ...]], ...]"
 
 
-def substituted(text: str, file: str, context: Context) -> tuple[tuple[str, ...], Reads] | None:
-    """Return what the substitutions in a text come to, in order; None where it is faulty.
+def substituted(text: str, file: str, context: Context) -> tuple[str, Back, Reads] | None:
+    """Return a text evaluated, with a function from its spans to those of the file; None where it is faulty.
 
     With it comes what was read for each substitution that read something.
 
     As upstream, backslashes escape in the whole text. What is faulty has been reported to the context's collector.
     """
-    template, found = _parsed(text, file)
-    for problem in found:
-        context.problems.report(replace(problem, included_from=context.included_from))
+    known = _known(text, file)
+    template = known or _parsed(text, file, context)
     sound = not template.faulty
     values: list[str] = []
     read: list[tuple[Span, tuple[Read, ...]]] = []
@@ -50,23 +50,41 @@ def substituted(text: str, file: str, context: Context) -> tuple[tuple[str, ...]
             read += [(part.span, tuple(reads))] if reads else []
         else:
             sound = False
-    return (tuple(values), tuple(read)) if sound else None
+    if not sound:
+        return None
+    made = _evaluated(template, text, file, values) if known is None else _again(text, file, tuple(values))
+    return *made, tuple(read)
 
 
 @lru_cache(maxsize=64)  # by content: many nodes are given the same file
-def _parsed(text: str, file: str) -> tuple[Template, tuple[Problem, ...]]:
-    """Return the parts of a text, and what is wrong with it."""
+def _known(text: str, file: str) -> Template | None:
+    """Return the parts of a text; None where there is something to tell of it, or others may have added to it."""
+    found = Problems()
+    template = by_itself(text, source(file, text).span, found)
+    return None if len(found) else template
+
+
+def _parsed(text: str, file: str, context: Context) -> Template:
     found = Problems()
     template = parse_template(text, source(file, text).span, found)
-    return template, tuple(found)
+    for problem in found:
+        context.problems.report(replace(problem, included_from=context.included_from))
+    return template
 
 
 @lru_cache(maxsize=64)  # as above
-def evaluated(text: str, file: str, values: tuple[str, ...]) -> tuple[str, Back]:
+def _again(text: str, file: str, values: tuple[str, ...]) -> tuple[str, Back]:
+    """Return what a text that is known comes to with these values of its substitutions."""
+    template = _known(text, file)
+    assert template is not None  # noqa: S101 - see above
+    return _evaluated(template, text, file, values)
+
+
+def _evaluated(template: Template, text: str, file: str, values: Sequence[str]) -> tuple[str, Back]:
     """Return a text with the values of its substitutions, with a function from its spans to those of the file."""
     made = _Made(source(file, text))
     following = iter(values)
-    for part in _parsed(text, file)[0].parts:
+    for part in template.parts:
         if isinstance(part, Words):
             made.words(part)
         else:

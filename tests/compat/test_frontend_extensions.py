@@ -284,3 +284,24 @@ def test_an_extension_that_fails_is_warned_of(folder: Path, monkeypatch: pytest.
     with pytest.warns(UserWarning, match="Failed to load failing_extension.*no_such_module_anywhere"):
         _, problems = _collected(folder / "inner.launch.yaml")
     assert [problem.message for problem in problems] == ["unknown action 'say'"]
+
+
+def test_what_a_parameter_file_comes_to_is_asked_of_who_is_there(folder: Path) -> None:
+    """What others have added to the language is gone in another plan, and makes an object for each node."""
+    node = "Node(executable='/bin/sh', parameters=[ParameterFile('p.yaml', allow_substs=True)])"
+    begin = "from launch import LaunchDescription\nfrom launch_ros.actions import Node\n"
+    begin += "from launch_ros.parameter_descriptions import ParameterFile\n"
+    end = f"\ndef generate_launch_description():\n    return LaunchDescription([{node}, {node}])\n"
+    (folder / "p.yaml").write_text("/**: {ros__parameters: {a: $(twice x)}}\n")
+    counting = _EXTENSION.replace("self.text = text", "self.text = text\n        made.append(self)").replace(
+        "        return 2 *", "        return str(len(made)) + 2 *"
+    )
+    (folder / "without.launch.py").write_text(begin + end)
+    (folder / "with.launch.py").write_text("made = []\n" + counting + begin + end)
+    for _ in range(2):
+        _, problems = _collected(folder / "without.launch.py")
+        assert {problem.message for problem in problems} == {"there is no substitution $(twice)"}
+        plan, problems = _collected(folder / "with.launch.py")
+        assert problems == ()
+        assert plan is not None
+        assert [process.parameters for process in plan.processes] == [{"a": "1xx"}, {"a": "2xx"}]
