@@ -43,6 +43,15 @@ _PIECE_IN_QUOTES = pattern(rf"[^$\\]+|{_CALL}")
 _ARGUMENT = pattern(_WORD)
 _QUOTING = pattern(rf"""{_NAME} (?:"([^\\"]*)"|'([^\\']*)')\)""")
 
+# Substitutions without their '$', of names that nobody puts in brackets for anything else, or with their name before
+# the bracket, as `$env(HOME)`.
+BARE = pattern(
+    r"(?<![$\\\w])(?:(?:\$[ ]|[%@&#])?\((var|find-pkg-share|find-pkg-prefix|exec-in-pkg|find-exec|path-join)[ ]"
+    r"(?:[^()]|\$\([^()]*\))+\)"
+    r"|\$(env|var|find-pkg-share|find-pkg-prefix|exec-in-pkg|find-exec|dirname|eval|command)\("
+    r"((?:[^()]|\$\([^()]*\))*)\))"
+)
+
 
 def plain_shape(text: str) -> Shape | None:
     """Return the shape of a text, None where it takes a closer look."""

@@ -27,8 +27,9 @@ from orchestra.load.pairs import (
     written_so,
     written_two,
 )
+from orchestra.load.plain_calls import BARE
+from orchestra.load.unquoted import ends_half_quoted
 from orchestra.location import Location, Span
-from orchestra.patterns import pattern
 
 if TYPE_CHECKING:
     import re
@@ -46,15 +47,6 @@ _WANTED = {
     "tuple_type": "a list",
 }
 _QUOTES = ("'", '"')
-_HALF_QUOTED = pattern(r"""[^\s"']*[^\s"'0-9]["']""")
-# Substitutions without their '$', of names that nobody puts in brackets for anything else, or with their name before
-# the bracket, as `$env(HOME)`.
-BARE = pattern(
-    r"(?<![$\\\w])(?:(?:\$[ ]|[%@&#])?\((var|find-pkg-share|find-pkg-prefix|exec-in-pkg|find-exec|path-join)[ ]"
-    r"(?:[^()]|\$\([^()]*\))+\)"
-    r"|\$(env|var|find-pkg-share|find-pkg-prefix|exec-in-pkg|find-exec|dirname|eval|command)\("
-    r"((?:[^()]|\$\([^()]*\))*)\))"
-)
 _SIGNS = "%@&#"  # that other languages have in place of the '$'
 _LISTS = ("list_type", "tuple_type")
 
@@ -92,7 +84,7 @@ class Reader:
     def template(self, written: Written) -> Template:
         """Read a text with substitutions."""
         text = written.text
-        if text[-1:] in _QUOTES and not written.quoted and _ends_half_quoted(written):
+        if text[-1:] in _QUOTES and not written.quoted and ends_half_quoted(written):
             told = f"the {text[-1]} at the end of '{text}' is part of the text: nothing opens it"
             self.warning(Code.SURPRISING_SCALAR, told, written.inside, suggestion=text[-1] + text)
         if "(" in text and (bare := BARE.search(text)) is not None and self._is_lost(bare, written):
@@ -101,7 +93,7 @@ class Reader:
             span = written.inside if written.quoted or type(written) is not Verbatim else written.span
             return new_template((new_words(text, span),), text, span, written.quoted)
         braces = "${" in text or "$[" in text
-        sound = None if braces else sound_template(text, written.spans, quoted=written.quoted)
+        sound = None if braces else _sound(written)
         if sound is not None:
             return sound
         found = Problems()
@@ -261,13 +253,14 @@ class Reader:
         return replace(at, end_line=whole.end_line, end_column=whole.end_column), f"{key}: {instead}"
 
 
-def _ends_half_quoted(written: Written) -> bool:
-    """Tell whether a quote at the end of a text looks like one too many; one that is written as an entity is meant."""
-    text = written.text
-    if not _HALF_QUOTED.fullmatch(text):
-        return False
-    quote = written.spans(len(text) - 1, len(text))
-    return quote.end_column - quote.column == 1
+def _sound(written: Written) -> Template | None:
+    """Return a text of which there is nothing to tell; else None."""
+    late = None
+    if type(written) is Written:
+        from orchestra.load.nested import spread  # noqa: PLC0415 - most texts stand in their file as they read
+
+        late = spread(written)
+    return late or sound_template(written.text, written.spans, quoted=written.quoted)
 
 
 def _among_texts(mapping: Keyed, error: ErrorDetails) -> str | None:

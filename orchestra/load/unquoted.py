@@ -9,11 +9,13 @@ from orchestra.errors import Code
 from orchestra.patterns import pattern
 
 if TYPE_CHECKING:
+    from orchestra.description.source import Written
     from orchestra.errors import Problems
 
 BRACKETS: Final = "a parenthesis in an argument needs quotes or a backslash"
 _XML: Final = (".xml", ".launch")
 _KEPT_QUOTES: Final = pattern(r"""(['"])([^'" ()$\\]*)\1(?=[ )])""")
+_HALF_QUOTED: Final = pattern(r"""[^\s"']*[^\s"'0-9]["']""")
 _OF_ROS1: Final = pattern(r"""\barg\(\s*(['"])(\w+)\1\s*\)""")
 
 
@@ -44,3 +46,12 @@ def phrase_meant(name: str, written: str, file: str, problems: Problems, known: 
     if instead is not None:
         problems.forget(Code.SUBSTITUTION_SYNTAX, known)
     return instead
+
+
+def ends_half_quoted(written: Written) -> bool:
+    """Tell whether a quote at the end of a text looks like one too many; one that is written as an entity is meant."""
+    text = written.text
+    if not _HALF_QUOTED.fullmatch(text):
+        return False
+    quote = written.spans(len(text) - 1, len(text))
+    return quote.end_column - quote.column == 1

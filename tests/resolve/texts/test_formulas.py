@@ -10,6 +10,8 @@ import pytest
 from orchestra.errors import Problems
 from orchestra.load import files
 from orchestra.load.alike.making import template
+from orchestra.load.elements import Attribute
+from orchestra.load.grammar import sound_template
 from orchestra.load.nested import Nested
 from orchestra.load.offsets import Source
 from orchestra.load.reader import Reader
@@ -144,3 +146,20 @@ def test_texts_that_differ_by_numbers_share_a_formula() -> None:
 )
 def test_of_what_there_may_be_something_to_tell_there_is_no_formula(text: str) -> None:
     assert not isinstance(_pieces(text), Nested)
+
+
+@pytest.mark.parametrize(
+    ("source", "text"),
+    [
+        ("$(eval &quot;'$(var a)' == 'b' and 12 > 3&quot;)", "$(eval \"'$(var a)' == 'b' and 12 > 3\")"),
+        ("x&amp;$(not $(var a))", "x&$(not $(var a))"),
+    ],
+)
+def test_places_of_texts_that_stand_otherwise_in_their_file_are_worked_out_later(
+    source: str, text: str
+) -> None:
+    written = Attribute("if", text, 0, 0, len(source)).written(Source("a.launch.xml", source))
+    read: Any = Reader(Problems()).template(written)
+    assert isinstance(read.pieces, Nested)
+    assert read == sound_template(text, written.spans)
+    assert read.location(()).span.end_column == len(source) + 1
