@@ -34,15 +34,25 @@ _OF_LINES: Final = "__firstlineno__"
 
 def lengthened(code: CodeType, run: Run) -> CodeType:
     """Return the code of a whole text. Raises `ValueError` where something stands against it."""
+    made, found = _moved(code, run)
+    if found != 1:  # the items of a list of literals are no instructions, but one constant
+        raise ValueError("what repeats itself is not in the instructions of one code")
+    return made
+
+
+def _moved(code: CodeType, run: Run) -> tuple[CodeType, int]:
+    """Return a code as it is in the whole text, and of how many in it the instructions repeat themselves."""
     if _OF_LINES in code.co_names:
         raise ValueError("a constant is the number of a line")
-    consts = tuple(lengthened(item, run) if isinstance(item, CodeType) else item for item in code.co_consts)
+    inner = {index: _moved(item, run) for index, item in enumerate(code.co_consts) if type(item) is CodeType}
+    found = sum(count for _, count in inner.values())
+    consts = tuple(inner[index][0] if index in inner else item for index, item in enumerate(code.co_consts))
     if code.co_firstlineno >= run.line:
-        return code.replace(co_firstlineno=code.co_firstlineno + run.moved, co_consts=consts)
+        return code.replace(co_firstlineno=code.co_firstlineno + run.moved, co_consts=consts), found
     if any(run.line - run.lines <= (line or 0) < run.line for _, _, line in code.co_lines()):
-        return _Lengthened(code, consts, run).code()
+        return _Lengthened(code, consts, run).code(), found + 1
     entries = places_of(code.co_linetable, code.co_firstlineno)
-    return code.replace(co_linetable=b"".join(moved(entries, run, run.line)), co_consts=consts)
+    return code.replace(co_linetable=b"".join(moved(entries, run, run.line)), co_consts=consts), found
 
 
 class _Instruction(NamedTuple):

@@ -109,6 +109,14 @@ def test_what_the_compiler_may_work_out_is_left_to_it(call: str) -> None:
     assert not _is_made(f"{_BEFORE}    return {around}{_BEHIND}")
 
 
+@pytest.mark.parametrize(
+    "around", ["[\n{}]", "(\n{})", "{{\n{}}}", "f(\n[\n{}])", "[a for a in [\n{}]]", "n in (\n{})"]
+)
+@pytest.mark.parametrize("item", ["{text!r}", "{number}", "({text!r}, {number})", "'the same'"])
+def test_a_long_list_of_literals_is_one_constant_and_left_to_the_compiler(around: str, item: str) -> None:
+    assert not _is_made(f"{_BEFORE}    return {around.format(_items(200, item))}\n")
+
+
 def test_what_follows_may_not_jump_or_know_its_line() -> None:
     text = _BEFORE + _IN_ITS_PLACE["a list"].replace("{items}", _items(80))
     assert not _is_made(text.replace("return", "x =") + "    return x if n else robot\n")
