@@ -72,7 +72,11 @@ class Run:
             texts = self._literals[number :: self.period]
             if texts.count(texts[0]) < len(texts):
                 differing.append(first + number)
-                if texts[0][0] != "#":
+                comments = [text[0] == "#" for text in texts]
+                if any(comments):
+                    if not all(comments):
+                        raise ValueError("a comment where there is a literal elsewhere")
+                else:
                     self._values[number] = _values(texts)
                     self._widths[number] = list(map(len, texts))
         Slots(self._parts, ()).at(differing)

@@ -117,6 +117,12 @@ def test_a_long_list_of_literals_is_one_constant_and_left_to_the_compiler(around
     assert not _is_made(f"{_BEFORE}    return {around.format(_items(200, item))}\n")
 
 
+def test_a_number_where_others_have_a_comment_is_no_comment() -> None:
+    items = _items(200, "f(n, {text!r},\n          n  # {number}\n          )")
+    assert _is_made(f"{_BEFORE}    return [f(1),\n{items}    ]\n")
+    assert not _is_made(f"{_BEFORE}    return [f(1),\n{items.replace('# 150', '-3')}    ]\n")
+
+
 def test_what_follows_may_not_jump_or_know_its_line() -> None:
     text = _BEFORE + _IN_ITS_PLACE["a list"].replace("{items}", _items(80))
     assert not _is_made(text.replace("return", "x =") + "    return x if n else robot\n")
