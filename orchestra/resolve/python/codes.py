@@ -41,7 +41,6 @@ _LOOKING: Final = (
 # Files that are alone of their length so far, by their lines; None where there were several.
 _alone: dict[int, Compiled | None] = {}
 _MOST_ALONE: Final = 64
-_LONG: Final = 1 << 15  # bytes of source that may repeat themselves
 _WORTH: Final = 1 << 14  # bytes of source: to compile less takes as long as to write a file
 
 
@@ -148,13 +147,6 @@ def _compiled(path: str, source: bytes) -> tuple[Compiled, bool]:
 
 
 def _from_compiler(path: str, source: bytes) -> tuple[CodeType, bool]:
-    if len(source) >= _LONG:
-        # Here, because hardly any file is as long.
-        from orchestra.resolve.python.runs import code_of  # noqa: PLC0415
-
-        made = code_of(path, source)
-        if made is not None:
-            return made, True
     with _told() as told:
         code = compile(source, path, "exec", dont_inherit=True)
     return code, not told

@@ -13,7 +13,6 @@ All of this is told by the text in which each literal is as short as it can be; 
 from __future__ import annotations
 
 import re
-import sys
 from keyword import iskeyword, kwlist
 from operator import add, mul, sub, truediv
 from typing import TYPE_CHECKING, Any, Final
@@ -60,18 +59,9 @@ _KEYWORDS: Final = frozenset(kwlist) - {
     *("from", "import", "as", "def", "return", "None", "True", "False", "for", "in")
 }
 _PATTERNS: Final = frozenset({"match", "case"})
-_KNOWN: Final = ((3, 11), (3, 12), (3, 13))  # versions whose compilers make such codes
-_ODD: Final = (b"\0", b"\r", b"\f", b"\v")
 _FAR: Final = 200  # what is further away is not looked for
 _BEFORE: Final = frozenset("([{,=:")
 _BEHIND: Final = frozenset(")]},:")
-
-
-def plain(source: bytes) -> str | None:
-    """Return a text in which a column is a byte; None for another one, or an interpreter that is not known."""
-    if sys.version_info[:2] not in _KNOWN or not source.isascii() or any(odd in source for odd in _ODD):
-        return None
-    return source.decode("ascii")
 
 
 def split(text: str) -> list[str]:

@@ -19,16 +19,19 @@ compiled as well, and most literals of alike files are the same.
 
 from __future__ import annotations
 
+import sys
 from contextlib import suppress
 from typing import TYPE_CHECKING, Final
 
 from orchestra.resolve.python.form import Form
 from orchestra.resolve.python.form_codes import variables
-from orchestra.resolve.python.form_slots import Slots, plain, split
+from orchestra.resolve.python.form_slots import Slots, split
 
 if TYPE_CHECKING:
     from orchestra.compat.looks import Compiled
 
+_KNOWN: Final = ((3, 11), (3, 12), (3, 13))  # versions whose compilers make such codes
+_ODD: Final = (b"\0", b"\r", b"\f", b"\v")
 _FEW: Final = 8  # parts of a text that a form is worth, and files of one length that are not alike
 _MOST: Final = 64  # lengths of files
 _PATIENCE: Final = 6  # files of one length that are compiled before no more forms are looked for among them
@@ -45,7 +48,7 @@ class Forms:
     def compiled(self, path: str, source: bytes) -> Compiled | None:
         """Return the code of a file, None where no form is known."""
         lines = source.count(b"\n")
-        text = plain(source) if lines in self._known else None
+        text = _plain(source) if lines in self._known else None
         if text is None:
             return None
         for first in self._known[lines]:
@@ -59,7 +62,7 @@ class Forms:
         """Learn from a file that was compiled, of which the compiler had nothing to tell."""
         lines = compiled.source.count(b"\n")
         missed = self._missed[lines] = self._missed.get(lines, 0) + 1
-        text = plain(compiled.source) if missed <= _PATIENCE else None
+        text = _plain(compiled.source) if missed <= _PATIENCE else None
         if text is None:
             return
         parts = split(text)
@@ -72,6 +75,13 @@ class Forms:
             known = self._known[lines] = []
         if not any(first.learns(parts, compiled) for first in reversed(known)) and len(known) < _FEW:
             known.append(First(parts, compiled))
+
+
+def _plain(source: bytes) -> str | None:
+    """Return a text in which a column is a byte; None for another one."""
+    if sys.version_info[:2] not in _KNOWN or not source.isascii() or any(odd in source for odd in _ODD):
+        return None
+    return source.decode("ascii")
 
 
 class First:

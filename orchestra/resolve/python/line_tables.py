@@ -8,8 +8,7 @@ written anew for each shift; few shifts are not asked for again.
 from __future__ import annotations
 
 import re
-from functools import lru_cache
-from typing import TYPE_CHECKING, Final, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Final, TypeAlias
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Iterator, Sequence
@@ -24,53 +23,9 @@ _NOWHERE: Final = 15
 _ONE_LINE: Final = 10
 _MOST: Final = 64  # ways to write an entry that are kept
 _FIRST: Final = 0x80
-_UNITS: Final = 8  # that an entry may be for
 _MORE: Final = 0x40
 _BITS: Final = 6
 _SHORT_COLUMNS, _SHORT_WIDTH, _COLUMNS, _LINES = 80, 16, 128, 3
-
-
-class Place(NamedTuple):
-    """Where instructions stand: from one line to another one, from a column to another one; -1 for what is unknown."""
-
-    line: int
-    last: int
-    column: int
-    end: int
-
-
-def places_of(table: bytes, line: int) -> Iterator[tuple[bytes, int, Place]]:
-    """Yield the entries of a table that begins at a line: what is written, for how many units of code, and where."""
-    for entry in _ENTRY.findall(table):
-        count, down, over, column, end = _entry(entry)
-        line += down
-        yield (
-            entry,
-            count,
-            NOWHERE if entry[0] >> 3 & 15 == _NOWHERE else Place(line, line + over, column, end),
-        )
-
-
-def placed(units: int, place: Place, line: int) -> bytes:
-    """Return the entries for units of code at a place, where those before are on a line.
-
-    Raises `ValueError` for a place without columns.
-    """
-    if place is not NOWHERE and min(place) < 0:
-        raise ValueError("a place without columns")
-    found = b""
-    while units > 0:
-        entry = min(units, _UNITS), place.line - line, place.last - place.line, place.column, place.end
-        if place is NOWHERE:
-            found += bytes((_FIRST | _NOWHERE << 3 | entry[0] - 1,))
-        else:
-            found += _written(entry, 0, 0)
-            line = place.line
-        units -= _UNITS
-    return found
-
-
-NOWHERE: Final = Place(-1, -1, -1, -1)
 
 
 class LineTable:
@@ -167,7 +122,6 @@ def _written(entry: _Entry, at_begin: int, at_end: int) -> bytes:
     return bytes((_FIRST | _LONG << 3 | count,)) + numbers
 
 
-@lru_cache(maxsize=1024)
 def _number(number: int) -> bytes:
     found = bytearray()
     while number >= _MORE:
