@@ -23,6 +23,7 @@ import sys
 from contextlib import suppress
 from typing import TYPE_CHECKING, Final
 
+from orchestra.patterns import pattern
 from orchestra.resolve.python.form import Form
 from orchestra.resolve.python.form_codes import variables
 from orchestra.resolve.python.form_slots import Slots, split
@@ -32,6 +33,8 @@ if TYPE_CHECKING:
 
 _KNOWN: Final = ((3, 11), (3, 12), (3, 13))  # versions whose compilers make such codes
 _ODD: Final = (b"\0", b"\r", b"\f", b"\v")
+# One of the first two lines says that a text is written in another way than by the signs that stand in it.
+_CODED: Final = pattern(rb"(?:[^\n]*\n)?[ \t]*#[^\n]*coding[:=](?![ \t]*(?i:utf[-_]?8))")
 _FEW: Final = 8  # parts of a text that a form is worth, and files of one length that are not alike
 _MOST: Final = 64  # lengths of files
 _PATIENCE: Final = 6  # files of one length that are compiled before no more forms are looked for among them
@@ -80,6 +83,8 @@ class Forms:
 def _plain(source: bytes) -> str | None:
     """Return a text in which a column is a byte; None for another one."""
     if sys.version_info[:2] not in _KNOWN or not source.isascii() or any(odd in source for odd in _ODD):
+        return None
+    if _CODED.match(source):
         return None
     return source.decode("ascii")
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import random
+import re
 import sys
 from typing import TYPE_CHECKING
 
@@ -63,7 +64,7 @@ class Files:
     def code(self, text: str) -> CodeType:
         """Return the code of a file, which is as the compiler's."""
         source = text.encode()
-        own = compile(text, "a.launch.py", "exec", dont_inherit=True)
+        own = compile(source, "a.launch.py", "exec", dont_inherit=True)
         made = self.forms.compiled("a.launch.py", source)
         if made is None:
             self.compiled += 1
@@ -305,6 +306,26 @@ def test_other_texts_than_ascii_and_other_lines_are_left_to_the_compiler() -> No
     for text in texts:
         known.code(text)
     assert known.compiled == len(texts)
+
+
+@pytest.mark.parametrize(
+    "coding", ["# coding: utf-7", "#!/usr/bin/python\n# -*- coding: iso2022_jp -*-", "# vim: fileencoding=hz"]
+)
+def test_texts_whose_signs_stand_for_others_are_left_to_the_compiler(coding: str) -> None:
+    """Of those alone that say so the compiler makes other signs than stand there."""
+    for text, count in ((coding, 4), (re.sub(r"([:=]) ?(?!utf-8)\w[\w-]+", r"\1 utf-8", coding), 2)):
+        known = Files()
+        for word in ("yes", "other", "third", "+AGE-~{<:~}"):
+            known.code(f"{text}\n{_LITERAL}x = f('{word}', y)\n")
+        assert known.compiled == count
+
+
+@pytest.mark.parametrize("before", ["key=", "y + "])
+@pytest.mark.parametrize("blanks", ["\n", "  # a number\n", "\n" + " " * 300])
+def test_a_number_that_is_asked_for_something_is_none_with_a_sign(before: str, blanks: str) -> None:
+    known = Files()
+    for number in ("515", "51666", "717", "-518"):
+        known.code(f"{_LITERAL}x = call({before}{number}{blanks}.bit_length())\n")
 
 
 def test_what_two_numbers_come_to_is_one_literal_and_numbers_may_have_signs() -> None:
