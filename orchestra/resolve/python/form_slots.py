@@ -59,7 +59,6 @@ _KEYWORDS: Final = frozenset(kwlist) - {
     *("from", "import", "as", "def", "return", "None", "True", "False", "for", "in")
 }
 _PATTERNS: Final = frozenset({"match", "case"})
-_ATTRIBUTE: Final = pattern(r"\s*\.")  # of a number: of -5, it is found before the sign is
 _FAR: Final = 200  # what is further away is not looked for
 _BEFORE: Final = frozenset("([{,=:")
 _BEHIND: Final = frozenset(")]},:")
@@ -165,8 +164,7 @@ class Slots:
         if any(begin <= place < end for begin, end in self._kept):
             return False
         before = self._text[max(place - _FAR, 0) : place].rstrip()
-        end = place + (2 if is_text or literal[0] == "-" else 1)
-        rest = self._text[end : place + _FAR].lstrip(" \t")
+        rest = self._text[place + (2 if is_text or literal[0] == "-" else 1) : place + _FAR].lstrip(" \t")
         last, behind = before[-1:], rest.lstrip()[:1]
         if not is_sum(literal):
             if last == "+" and _ends_with_name(before[:-1]):
@@ -174,7 +172,10 @@ class Slots:
             if behind == "+" and _begins_with_name(rest.lstrip()[1:]):
                 behind = ","
         if last == "=" and rest[:1] == "\n":  # of a statement, or a call that goes on
-            return is_text or _ATTRIBUTE.match(self._text, end) is None
+            return is_text or behind not in (
+                "",
+                ".",
+            )  # of -5 something is asked for before the sign is applied
         if last not in _BEFORE or behind not in _BEHIND or not (last and behind):
             return False
         if last not in "([":

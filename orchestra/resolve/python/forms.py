@@ -84,7 +84,7 @@ def _plain(source: bytes) -> str | None:
     """Return a text in which a column is a byte; None for another one."""
     if sys.version_info[:2] not in _KNOWN or not source.isascii() or any(odd in source for odd in _ODD):
         return None
-    if _CODED.match(source):
+    if b"coding" in source and _CODED.match(source):
         return None
     return source.decode("ascii")
 
