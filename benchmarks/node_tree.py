@@ -15,6 +15,15 @@ _NODES: Final = 20
 # Given to files that include others, and handed on.
 _NOBODY: Final = "robot"
 
+_PARAMETERS: Final = """\
+/**:
+  ros__parameters:
+    frequency: {n}.5
+    frames: [map, odom]
+    limits:
+      lower: -{n}.0
+      upper: {n}.0
+"""
 YAML_NODE: Final = """\
   - node:
       pkg: benchmark_widget
@@ -99,6 +108,11 @@ def write_package(folder: Path) -> None:
     package.mkdir(parents=True, exist_ok=True)
     for path in (package.parent / "__init__.py", package / "__init__.py", package / "widget.py"):
         path.touch()
+
+
+def write_parameters(path: Path, number: int) -> None:
+    """Write a parameter file for all nodes."""
+    path.write_text(_PARAMETERS.format(n=number))
 
 
 def _yaml(actions: Iterable[str], *, argument: bool) -> str:

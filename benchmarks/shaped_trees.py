@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Final, NamedTuple
 
-from benchmarks import levels, node_tree
+from benchmarks import levels, node_tree, python_shapes
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -23,33 +23,16 @@ class Shape(NamedTuple):
     python: Callable[[Sequence[int]], str] | None = None
 
 
-_INCLUDES: Final = {
-    "yaml": """\
+_INCLUDE: Final = """\
   - include:
       file: $(dirname)/{file}
       arg: [{{name: robot, value: {robot}}}, {{name: mode, value: $(var mode)}}]
-""",
-    "py": """\
-        IncludeLaunchDescription(
-            PythonLaunchDescriptionSource(os.path.join(FOLDER, "{file}")),
-            launch_arguments={{"robot": "{robot}", "mode": LaunchConfiguration("mode")}}.items(),
-        ),
-""",
-}
+"""
 _ARGUMENTS: Final = """\
 launch:
   - arg: {name: robot, default: nobody}
   - arg: {name: mode, default: sim, description: "sim, or the real one"}
   - arg: {name: debug, default: "false"}
-"""
-_PARAMETERS: Final = """\
-/**:
-  ros__parameters:
-    frequency: {n}.5
-    frames: [map, odom]
-    limits:
-      lower: -{n}.0
-      upper: {n}.0
 """
 _NODE: Final = "pkg: benchmark_widget\n      exec: widget\n      name: widget{n}\n"
 _WITH_FILES: Final = f"""\
@@ -128,97 +111,6 @@ _KINDS: Final = (
 """,
 )
 
-_PYTHON: Final = """\
-import os
-
-from launch import LaunchDescription
-from launch.actions import DeclareLaunchArgument, GroupAction, IncludeLaunchDescription, OpaqueFunction
-from launch.conditions import IfCondition, UnlessCondition
-from launch.launch_description_sources import PythonLaunchDescriptionSource
-from launch.substitutions import LaunchConfiguration
-from launch_ros.actions import Node, PushRosNamespace, SetParameter
-
-FOLDER = os.path.dirname(__file__)
-"""
-_DECLARED: Final = """\
-        DeclareLaunchArgument("robot", default_value="nobody"),
-        DeclareLaunchArgument("mode", default_value="sim", description="sim, or the real one"),
-        DeclareLaunchArgument("debug", default_value="false"),
-"""
-_DIRECT: Final = """\
-
-
-def generate_launch_description():
-    robot = LaunchConfiguration("robot")
-    return LaunchDescription([
-{actions}    ])
-"""
-_CALL: Final = """\
-Node(
-            package="benchmark_widget", executable="widget", name={name}, namespace=robot,
-            parameters=[{{"rate": {number} + 0.5, "frame": [robot, {frame}]}}],
-            remappings=[("scan", {scan}), ("odom", ["/", robot, "/odom"])],
-        )"""
-_NUMBERED: Final = _CALL.format(name='f"widget{n}"', number="n", frame='f"/base{n}"', scan='f"scan{n}"')
-_LOOP: Final = f"""\
-
-
-def generate_launch_description():
-    robot = LaunchConfiguration("robot")
-    description = LaunchDescription([
-{_DECLARED}    ])
-    for n in range({{first}}, {{end}}):
-        description.add_action({_NUMBERED})
-    return description
-"""
-_HELPER: Final = f"""\
-
-
-def widget(robot, n, **more):
-    return {_NUMBERED}
-
-
-def generate_launch_description():
-    robot = LaunchConfiguration("robot")
-    return LaunchDescription([
-{_DECLARED}{{calls}}    ])
-"""
-_OPAQUE: Final = f"""\
-
-
-def widgets(context):
-    robot = LaunchConfiguration("robot").perform(context)
-    return [
-        {_NUMBERED}
-        for n in range({{first}}, {{end}})
-    ]
-
-
-def generate_launch_description():
-    return LaunchDescription([
-{_DECLARED}        OpaqueFunction(function=widgets),
-    ])
-"""
-_PYTHON_GROUP: Final = """\
-        GroupAction(condition=UnlessCondition(LaunchConfiguration("debug")), actions=[
-            PushRosNamespace(robot),
-            SetParameter("use_sim_time", True),
-{actions}        ]),
-"""
-_PYTHON_GROUPED: Final = """\
-            Node(
-                package="benchmark_widget",
-                executable="widget",
-                name="widget{n}",
-                output="screen",
-                respawn=True,
-                respawn_delay=2.0,
-                condition=IfCondition(LaunchConfiguration("used", default="true")),
-                parameters=[{{"frame": [robot, "/base{n}"]}}],
-                arguments=["--ros-args", "--log-level", "info"],
-                remappings=[("/tf", "tf"), ("/tf_static", "tf_static")],
-            ),
-"""
 _SAME_GROUP: Final = """\
   - group:
       - push_ros_namespace: {namespace: $(var robot)}
@@ -263,33 +155,6 @@ def _kinds(numbers: Sequence[int]) -> str:
     return _ARGUMENTS + "".join(_KINDS[n % len(_KINDS)].format(n=n) for n in numbers)
 
 
-def _written_out(numbers: Sequence[int]) -> str:
-    calls = "".join(
-        f"        {_CALL},\n".format(name=f'"widget{n}"', number=n, frame=f'"/base{n}"', scan=f'"scan{n}"')
-        for n in numbers
-    )
-    return _described(_DECLARED + calls)
-
-
-def _ranged(text: str) -> Callable[[Sequence[int]], str]:
-    return lambda numbers: (
-        _PYTHON + text.replace("{first}", str(numbers[0])).replace("{end}", str(numbers[-1] + 1))
-    )
-
-
-def _helped(numbers: Sequence[int]) -> str:
-    return _PYTHON + _HELPER.replace("{calls}", "".join(f"        widget(robot, {n}),\n" for n in numbers))
-
-
-def _grouped(numbers: Sequence[int]) -> str:
-    actions = "".join(_PYTHON_GROUPED.format(n=n) for n in numbers)
-    return _described(_DECLARED + _PYTHON_GROUP.format(actions=actions))
-
-
-def _described(actions: str) -> str:
-    return _PYTHON + _DIRECT.format(actions=actions)
-
-
 def _same(numbers: Sequence[int]) -> str:
     return _ARGUMENTS + "".join(node_tree.YAML_NODE.format(n=n) for n in numbers)
 
@@ -304,13 +169,13 @@ SHAPES: Final = {
     "conditions": Shape(_conditions),
     "kinds in turn": Shape(_kinds),
     "four deep": Shape(_kinds, nodes=10, files=5),
-    "written out": Shape(_same, python=_written_out),
-    "loops": Shape(_same, python=_ranged(_LOOP)),
-    "helper": Shape(_same, python=_helped),
-    "opaque": Shape(_same, python=_ranged(_OPAQUE)),
-    "grouped": Shape(_same_grouped, python=_grouped),
-    "short files": Shape(_same, nodes=10, python=_written_out),
-    "one file": Shape(_same, nodes=1000, python=_written_out),
+    "written out": Shape(_same, python=python_shapes.written_out),
+    "loops": Shape(_same, python=python_shapes.ranged(python_shapes.LOOP)),
+    "helper": Shape(_same, python=python_shapes.helped),
+    "opaque": Shape(_same, python=python_shapes.ranged(python_shapes.OPAQUE)),
+    "grouped": Shape(_same_grouped, python=python_shapes.grouped),
+    "short files": Shape(_same, nodes=10, python=python_shapes.written_out),
+    "one file": Shape(_same, nodes=1000, python=python_shapes.written_out),
 }
 
 
@@ -322,7 +187,7 @@ def write(folder: Path, name: str, nodes: int, *, python: bool = False) -> Path:
     folder = folder / f"{name.replace(' ', '_')}-{language}{nodes}"
     folder.mkdir()
     for file, number in (("shared", 1), ("sim", 2)):
-        (folder / f"{file}.yaml").write_text(_PARAMETERS.format(n=number))
+        node_tree.write_parameters(folder / f"{file}.yaml", number)
     level = []
     for number in range(0, nodes, shape.nodes):
         path = folder / f"robot{number}.launch.{language}"
@@ -331,8 +196,12 @@ def write(folder: Path, name: str, nodes: int, *, python: bool = False) -> Path:
 
     def including(name: str, files: Sequence[levels.File]) -> levels.File:
         path = folder / f"{name}.launch.{language}"
-        includes = "".join(_INCLUDES[language].format(file=file, robot=robot) for file, robot in files)
-        path.write_text(_ARGUMENTS + includes if language == "yaml" else _described(_DECLARED + includes))
+        if language == "py":
+            path.write_text(python_shapes.including(files))
+        else:
+            path.write_text(
+                _ARGUMENTS + "".join(_INCLUDE.format(file=file, robot=robot) for file, robot in files)
+            )
         return path.name, name
 
     return folder / levels.top(level, including, shape.files)

@@ -24,15 +24,6 @@ launch:
       default: "false"
   - let: {name: base, value: $(var robot)/base}
 """
-_PARAMETERS: Final = """\
-/**:
-  ros__parameters:
-    frequency: {n}.5
-    frames: [map, odom]
-    limits:
-      lower: -{n}.0
-      upper: {n}.0
-"""
 # Each is there or not; {n} is the number of the node, and of the file that it is in.
 _PARTS: Final = (
     ("namespace: $(var robot)", "namespace: part{n}", "namespace: '/$(var robot)/sub'"),
@@ -71,11 +62,11 @@ def write(folder: Path, nodes: int) -> Path:
     rnd = Random(nodes)  # noqa: S311 - the same every time
     folder = folder / f"varied{nodes}"
     folder.mkdir()
-    (folder / "shared.yaml").write_text(_PARAMETERS.format(n=1))
+    node_tree.write_parameters(folder / "shared.yaml", 1)
     level = []
     for first in range(0, nodes, _NODES):
         numbers = range(first, min(nodes, first + _NODES))
-        (folder / f"robot{first}.yaml").write_text(_PARAMETERS.format(n=first + 1))
+        node_tree.write_parameters(folder / f"robot{first}.yaml", first + 1)
         file = f"robot{first}.launch.yaml"
         (folder / file).write_text(_ARGUMENTS + "".join(_actions(numbers, rnd)))
         level.append((file, f"robot{first}"))
