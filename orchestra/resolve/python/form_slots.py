@@ -172,10 +172,8 @@ class Slots:
             if behind == "+" and _begins_with_name(rest.lstrip()[1:]):
                 behind = ","
         if last == "=" and rest[:1] == "\n":  # of a statement, or a call that goes on
-            return is_text or behind not in (
-                "",
-                ".",
-            )  # of -5 something is asked for before the sign is applied
+            # What is asked of -5 is asked of 5, and has the sign then.
+            return is_text or behind not in ("", ".")
         if last not in _BEFORE or behind not in _BEHIND or not (last and behind):
             return False
         if last not in "([":
