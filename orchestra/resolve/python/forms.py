@@ -7,7 +7,9 @@ the compiler where
 
 - the rest of the text is the same, and what differs is written as plainly;
 - literals are equal to one another just where they are in the form: equal constants are one constant;
-- none is equal to a constant that the form has besides;
+- none is equal to a constant that the form has besides (from 3.12 on those of code that is never reached are not there
+  to be seen: a text that is equal to one that was joined there is numbered in another way than by the compiler, and
+  the code does the same);
 - of names only those of a function's own variables that end with a number are others (`node_12`), under the same terms.
 
 What it makes of the second file has to be what the compiler made of it, down to the table of positions. A file that
