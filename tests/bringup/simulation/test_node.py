@@ -94,8 +94,8 @@ def test_a_run_of_a_given_duration_ends_by_itself(outcome: Outcome) -> None:
     assert outcome.status == 0
     assert "Traceback" not in outcome.said
     clock = [ticks_of(message.clock) for message in outcome.heard["/clock"]]
-    # The very last message may be lost with the node that sent it.
-    assert DURATION * 100 - 20 <= clock[-1] <= DURATION * 100
+    # The last messages may be lost with the node that sent them: whoever hears them may be behind, where all is busy.
+    assert DURATION * 100 - 100 <= clock[-1] <= DURATION * 100
     assert re.search(rf"simulated {DURATION}\.00 s in .* real-time factor \d\.\d+", outcome.said)
 
 
