@@ -41,14 +41,15 @@ def loads(content: bytes) -> Document:
     parts = content.decode("utf-8", "surrogatepass").split(MARK)
     written = "".join(parts)
     # Of a large plan what nobody asks for is not read: it takes three times as long as all else.
-    document = json.loads("{}".join(parts[::2]) if len(parts) > 2 * _MOST_SHOWN else written)
+    is_whole = len(parts) <= 2 * _MOST_SHOWN
+    document = json.loads(written if is_whole else "{}".join(parts[::2]))
     if not isinstance(document, dict) or document.keys() - {"plan", "options"} or "plan" not in document:
         raise ValueError("not an object with a plan")
     plan = document["plan"]
     if not isinstance(plan, dict) or plan.get("version") != model.VERSION:
         raise ValueError(f"not a plan of version {model.VERSION}")
     try:
-        text = _text(plan, _before(document.get("options", {})), written)
+        text = _text(plan, _before(document.get("options", {})), written, is_whole=is_whole)
         for record in (*plan["processes"], *plan["components"]):
             record["provenance"] = {}
         return Document(codec.decode(model.Plan, plan), options.decode(document.get("options", {})), text)
@@ -60,8 +61,8 @@ def _before(chosen: dict[str, Any]) -> str:
     return f'{{"options": {json.dumps(chosen, ensure_ascii=False)}, "plan": '
 
 
-def _text(plan: dict[str, Any], before: str, written: str) -> str:
+def _text(plan: dict[str, Any], before: str, written: str, *, is_whole: bool) -> str:
     """Return the plan for people, with a line for each value; a large one, which nobody reads so, as it is written."""
     if len(plan["processes"]) > _MOST_SHOWN and written.startswith(before):
         return f"{written[len(before) : -1]}\n"
-    return f"{codec.dumps(json.loads(written)['plan'], indent=2)}\n"
+    return f"{codec.dumps(plan if is_whole else json.loads(written)['plan'], indent=2)}\n"
