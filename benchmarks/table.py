@@ -18,6 +18,7 @@ MEASUREMENTS: Final = (
     "restarted_node",
     "plans",
     "plan_shapes",
+    "plan_converted",
     "short_processes",
     "up_and_down",
     "output",
