@@ -93,34 +93,38 @@ def visit(actions: Iterable[Action], run: Resolution) -> None:
         beside = action.__pydantic_private__ or _NOTHING  # as `faults` and `origin` are told
         if "faults" in beside:
             _report_faults(action, run)
-        if beside.get("origin") is None and action.if_ is None and action.unless is None:  # as most are
-            _visiting(type(action))(action, run)
-        else:
+        if action.if_ is not None or action.unless is not None:
             _visit_wanted(action, run)
+            continue
+        origin = beside.get("origin")
+        if origin is None:
+            _visiting(type(action))(action, run)
+            continue
+        around, held = run.around, run.held
+        run.around = (*around, origin)
+        _visiting(type(action))(action, run)
+        run.around, run.held = around, held
+        run.found.carried_out[id(origin)] = origin
     run.depth -= 1
 
 
 def _visit_wanted(action: Action, run: Resolution) -> None:
-    """Visit an action that has a condition, or is of Python, unless its condition says that it is left out."""
+    """Visit an action that has a condition, unless its condition says that it is left out."""
     name, origin = type(action).__name__, action.origin
-    conditional = action.if_ is not None or action.unless is not None
-    if conditional and not wanted(action, VISITORS[name], run):
+    if not wanted(action, VISITORS[name], run):
         return
     around, outer = run.around, run.held
-    run.conditions += conditional
-    if conditional:
-        run.found.visited.add(id(action))
-        if origin is not None or name not in _LEAVES:
-            run.held = (*outer, *_held(action, run))
-    visiting = _visiting(type(action))
-    if origin is None:
-        visiting(action, run)
-    else:
+    run.conditions += 1
+    run.found.visited.add(id(action))
+    if origin is not None or name not in _LEAVES:
+        run.held = (*outer, *_held(action, run))
+    if origin is not None:
         run.around = (*around, origin)
-        visiting(action, run)
+    _visiting(type(action))(action, run)
+    if origin is not None:
         run.around = around
         run.found.carried_out[id(origin)] = origin
-    run.conditions -= conditional
+    run.conditions -= 1
     run.held = outer
 
 
