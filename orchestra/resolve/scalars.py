@@ -13,16 +13,13 @@ from functools import lru_cache
 from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.description.source import shortened
-from orchestra.description.text import MatchedTemplate
 from orchestra.nearest import nearest
-from orchestra.patterns import pattern
 from orchestra.resolve.rcl import scalars as rcl
-from orchestra.resolve.yaml_scalars import QUOTE, Plain, by_core, by_pyyaml, read_scalars
+from orchestra.resolve.yaml_scalars import QUOTE, Plain, by_core, by_pyyaml, read_scalars, value_alike
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from orchestra.description.text import Template
     from orchestra.resolve.yaml_scalars import Construct
     from orchestra.values import ParameterValue, Scalar
 
@@ -34,15 +31,6 @@ TYPES: Final = (
 
 _INTEGERS = range(-(2**63), 2**63)
 _WORDS: Final[dict[type, str]] = {bool: "boolean", int: "integer", float: "float", str: "text"}
-# Texts that YAML 1.1, YAML 1.2 and rcl read alike, and which need no parser: numbers that fit, true and false, and
-# words that mean nothing but themselves.
-_NUMBER: Final = pattern(r"-?(?:0|[1-9][0-9]{0,17})(\.[0-9]{1,18})?")
-_WORD: Final = pattern(r"[A-Za-z_/][A-Za-z0-9_/.-]{0,500}")
-_BOOLEANS: Final = {"true": True, "false": False}
-_LIST: Final = pattern(r"\[ *([A-Za-z0-9_/.-]+(?:, *[A-Za-z0-9_/.-]+)*) *\]")
-_MEANT: Final = frozenset(
-    ["y", "yes", "n", "no", "on", "off", "true", "false", "null", "nan", "inf", "infinity", *rcl.SLIPS]
-)
 _LONGEST_KEPT: Final = 1_000  # characters: what is longer is hardly ever read twice
 _KINDS: Final[dict[str, type]] = {"str": str, "bool": bool, "int": int, "float": float}
 
@@ -139,45 +127,6 @@ def number_held(value: ParameterValue) -> ParameterValue | None:
 def flow(value: ParameterValue) -> str:
     """Return the text of a value for `$(param)`, as Python writes it; a list so that it can be read again."""
     return f"[{', '.join(map(_shown, value))}]" if isinstance(value, tuple) else str(value)
-
-
-@lru_cache(maxsize=2048)  # of many parameters few say what no other does
-def read_alike(text: str) -> Scalar | None:
-    """Return what a text is to everybody who reads it, None where that is not plain to see."""
-    number = _NUMBER.fullmatch(text)
-    if number is not None:
-        return int(text) if number[1] is None else float(text)
-    if text in _BOOLEANS:
-        return _BOOLEANS[text]
-    return text if _WORD.fullmatch(text) and text.lower() not in _MEANT else None
-
-
-def value_alike(text: str) -> ParameterValue | None:
-    """Return what a text is to everybody who reads it, also a list in brackets; None where that is not plain to see."""
-    scalar = read_alike(text)
-    return _list_alike(text) if scalar is None else scalar
-
-
-def items_alike(items: Sequence[Template]) -> ParameterValue | None:
-    """Return what the items of a list in a file are to everybody, None where that takes a closer look."""
-    values: list[Any] = []
-    for item in items:
-        if type(item) is not MatchedTemplate or not item.constant:
-            return None
-        values.append(item.constant if item.quoted else read_alike(item.constant))
-    return tuple(values) if len(set(map(type, values))) == 1 and values[0] is not None else None
-
-
-def _list_alike(text: str) -> ParameterValue | None:
-    """Return what a list in brackets is to everybody who reads it, None where that is not plain to see."""
-    listed = _LIST.fullmatch(text) if text[:1] == "[" else None
-    if listed is None:
-        return None
-    items = [read_alike(item.strip(" ")) for item in listed[1].split(",")]
-    kind = type(items[0])
-    found: Any = tuple(item for item in items if item is not None and type(item) is kind)
-    alike: ParameterValue | None = found if len(found) == len(items) else None
-    return alike
 
 
 @lru_cache(maxsize=64)  # as many lists say the same

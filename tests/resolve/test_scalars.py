@@ -8,17 +8,16 @@ import yaml
 from hypothesis import given
 from hypothesis import strategies as st
 
+from orchestra.resolve.rcl.surprises import of_commas
 from orchestra.resolve.scalars import (
-    _list_alike,
     _parsed,
     coerced,
     core_value,
     differs,
-    read_alike,
     unified,
     upstream_value,
 )
-from orchestra.resolve.yaml_scalars import by_core, by_pyyaml
+from orchestra.resolve.yaml_scalars import by_core, by_pyyaml, value_alike
 
 if TYPE_CHECKING:
     from orchestra.values import ParameterValue
@@ -257,20 +256,62 @@ def test_numbers_are_those_of_pyyaml(text: str) -> None:
 
 @given(st.text("aeflnorstuyNOTFY_/.-0123456789", max_size=6) | st.floats().map(str) | st.integers().map(str))
 def test_what_needs_no_parser_is_what_the_parsers_say(text: str) -> None:
-    alike = read_alike(text)
+    alike = value_alike(text)
     if alike is not None:
         assert _same(_parsed(text, by_pyyaml), alike)
         assert _same(_parsed(text, by_core), alike)
 
 
-_ITEMS = st.text("aeflnorstuyNO_/.-0123456789", max_size=5) | st.floats().map(str) | st.integers().map(str)
+_SIGNS = st.text("at:# ,.'\"\\\\[]{}()&*!%@|>?=~-+;$/_0", max_size=8)
+
+
+@given(
+    st.sampled_from(("", "a", "true", "Nan", "/", "'", '"', "1", "_ ")),
+    _SIGNS,
+    st.sampled_from(("", "'", '"')),
+)
+def test_texts_of_any_signs_that_need_no_parser_are_what_the_parsers_say(
+    begun: str, signs: str, ended: str
+) -> None:
+    text = f"{begun}{signs}{ended}"
+    alike = value_alike(text)
+    if alike is not None:
+        assert _same(_parsed(text, by_pyyaml), alike)
+        assert _same(_parsed(text, by_core), alike)
+        assert not isinstance(alike, str) or of_commas(text) is None
+
+
+@pytest.mark.parametrize(
+    ("text", "value"),
+    [
+        ("robot 864", "robot 864"),
+        ("package://robot/meshes/a b.stl", "package://robot/meshes/a b.stl"),
+        ("map -> odom, base", "map -> odom, base"),
+        ("192.168.1.201", "192.168.1.201"),
+        ("'0.5'", "0.5"),
+        ('"true"', "true"),
+        ("''", ""),
+    ],
+)
+def test_words_and_quotes_need_no_parser(text: str, value: str) -> None:
+    assert value_alike(text) == value
+
+
+@pytest.mark.parametrize(
+    "text", ["true, or false", "nan(1)", "a: b", "a #b", "a ", "a:", "'a'b", "1.000.000.000", "2 m", "a\tb"]
+)
+def test_texts_that_are_not_plain_are_left_to_the_parsers(text: str) -> None:
+    assert value_alike(text) is None
+
+
+_ITEMS = st.text("aeflnorstuyNO_/.-0123456789'\"", max_size=5) | st.floats().map(str) | st.integers().map(str)
 
 
 @pytest.mark.parametrize("text", ["true", "false"])
 def test_true_and_false_need_no_parser(text: str) -> None:
-    assert read_alike(text) is (text == "true")
-    assert _same(_parsed(text, by_pyyaml), read_alike(text))
-    assert _same(_parsed(text, by_core), read_alike(text))
+    assert value_alike(text) is (text == "true")
+    assert _same(_parsed(text, by_pyyaml), value_alike(text))
+    assert _same(_parsed(text, by_core), value_alike(text))
 
 
 @given(st.lists(_ITEMS, max_size=4), st.sampled_from((",", ", ", ",  ", " ,")), st.sampled_from(("", " ")))
@@ -278,7 +319,7 @@ def test_lists_that_need_no_parser_are_what_the_parsers_say(
     items: list[str], between: str, around: str
 ) -> None:
     text = f"[{around}{between.join(items)}{around}]"
-    alike = _list_alike(text)
+    alike = value_alike(text)
     if alike is not None:
         assert _same(_parsed(text, by_pyyaml), alike)
         assert _same(_parsed(text, by_core), alike)
@@ -292,14 +333,17 @@ def test_lists_that_need_no_parser_are_what_the_parsers_say(
         ("[a,b]", ("a", "b")),
         ("[ 1 ]", (1,)),
         ("[/a/b, c.d]", ("/a/b", "c.d")),
+        ("['a, b', c, \"[d]\"]", ("a, b", "c", "[d]")),
+        ("[-1, 0,  12]", (-1, 0, 12)),
     ],
 )
 def test_plain_lists_need_no_parser(text: str, value: tuple[object, ...]) -> None:
-    assert _list_alike(text) == value
+    assert value_alike(text) == value
 
 
 @pytest.mark.parametrize(
-    "text", ["[]", "[1, 2.0]", "[a, y]", "[1, a]", "[1", "[a: b]", "[- a]", "['a']", "[a,,b]", "[1,]"]
+    "text",
+    ["[]", "[1, 2.0]", "[a, y]", "[1, a]", "[1", "[a: b]", "[- a]", "['a'b]", "['1', 1]", "[a,,b]", "[1,]"],
 )
 def test_lists_that_are_not_plain_are_left_to_the_parsers(text: str) -> None:
-    assert _list_alike(text) is None
+    assert value_alike(text) is None
