@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any
 
-from orchestra.description.parts import LateParam, row_of
 from orchestra.description.text import Constant, Items, MatchedTemplate, Template, Words
 from orchestra.resolve.evaluate import plainly as known_text
 from orchestra.resolve.late_values import matched_value
@@ -16,7 +15,6 @@ from orchestra.resolve.yaml_scalars import items_alike, read_alike, value_alike
 if TYPE_CHECKING:
     from orchestra.description.actions.set_parameter import SetParameter
     from orchestra.description.parts import Param
-    from orchestra.location import Span
     from orchestra.resolve.context import Read, Value
     from orchestra.resolve.resolution import Resolution
     from orchestra.values import ParameterValue
@@ -27,8 +25,6 @@ def plainly(param: Param, run: Resolution, everywhere: bool, quotes: bool) -> In
 
     `everywhere`: it is for all nodes. Without `quotes`, a text in quotes is typed as any other.
     """
-    if type(param) is LateParam:
-        return _known(param, run.context.included_from, everywhere)
     called, written = param.name, param.value
     if type(called) is not MatchedTemplate or param.type is not None or param.param is not None:
         return None
@@ -36,9 +32,7 @@ def plainly(param: Param, run: Resolution, everywhere: bool, quotes: bool) -> In
     if not name or may_be_odd(name):
         return None
     reads: tuple[Read, ...] = ()
-    if type(written) is Constant and not everywhere:
-        value = held(written.value)
-    elif type(written) is not MatchedTemplate:
+    if type(written) is not MatchedTemplate:
         value = read_at_once(param, quotes)
     elif written.constant is None:
         known = known_text(written, run.context)
@@ -51,43 +45,14 @@ def plainly(param: Param, run: Resolution, everywhere: bool, quotes: bool) -> In
         value = written.constant or None
     if value is None:
         return None
-    return _parameter(name, value, everywhere, reads, (param, run.context.included_from))
-
-
-def _known(param: LateParam, chain: tuple[Span, ...], everywhere: bool) -> InlineParameter | None:
-    """Return the same of a parameter by its two literals."""
-    row = row_of(param)
-    name = row[0]
-    value = None if not name or may_be_odd(name) else held(row[1])
-    return None if value is None else _parameter(name, value, everywhere, (), (param, chain))
-
-
-def _parameter(
-    name: str,
-    value: ParameterValue,
-    everywhere: bool,
-    reads: tuple[Read, ...],
-    written: tuple[Param, tuple[Span, ...]],
-) -> InlineParameter:
     made: Any = _new(InlineParameter)
     made.name = name
     made.value = value
     made.everywhere = everywhere
     made.through = reads
-    made._written = written  # noqa: SLF001 - it is made here
+    made._written = param, run.context.included_from  # noqa: SLF001 - it is made here
     parameter: InlineParameter = made
     return parameter
-
-
-def held(value: ParameterValue) -> ParameterValue | None:
-    """Return a value that has its type, where rcl can hold it as it is; None where that takes a closer look."""
-    kind = type(value)
-    if kind is str:
-        return value if value.isprintable() else None  # type: ignore[union-attr] # as it says
-    if kind is not tuple:
-        return number_held(value)
-    kinds: Any = {*map(type, value)}  # type: ignore[arg-type] # as above
-    return value if kinds in _ALIKE and None not in map(held, value) else None  # type: ignore[arg-type] # as above
 
 
 def given_again(written: Template, run: Resolution, *, plain: bool) -> FileParameters | None:
@@ -141,7 +106,6 @@ def given(file: FileParameters, value: Value, *, everywhere: bool) -> FileParame
 
 
 _new = object.__new__
-_ALIKE: Final = ({str}, {float}, {bool}, {int})
 
 
 def read_at_once(param: Param | SetParameter, quotes: bool) -> ParameterValue | None:
