@@ -3,12 +3,31 @@
 from __future__ import annotations
 
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Final, NamedTuple
 
 from orchestra.dataclass import dataclass
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
+
+
+class Shape(NamedTuple):
+    """A template without a place: offsets in the text stand for spans."""
+
+    parts: tuple[Part, ...]
+    raw: str
+    begin: int
+    end: int
+    quoted: bool
+
+
+class Part(NamedTuple):
+    """Words, or a call: its name, and its arguments."""
+
+    text: str
+    arguments: tuple[Shape, ...] | None
+    begin: int
+    end: int
 
 
 @dataclass(frozen=True, slots=True)

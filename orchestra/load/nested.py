@@ -10,7 +10,8 @@ import re
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any, Final
 
-from orchestra.description.text import Pieces, matched_template
+from orchestra.description.calculated import DIGIT, Calculated
+from orchestra.description.text import matched_template
 from orchestra.load.grammar import by_itself
 from orchestra.load.plain_calls import BARE
 from orchestra.load.repeated import SHORT, known_template, placed_parts
@@ -20,41 +21,24 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from orchestra.description.source import Written
+    from orchestra.description.substitutions import Shape
     from orchestra.description.text import Part, Template
-    from orchestra.load.plain_calls import Shape
     from orchestra.location import Span, Whole
 
 _DIGITS: Final = re.compile(r"[0-9]+")
 _QUOTES: Final = ("'", '"')
-DIGIT: Final = "0"  # it stands for a number in a skeleton
 _TOLD: Final = ("${", "$[")  # as of quotes at the end
 
 
-class Nested(Pieces):
-    """What such a text is made of.
+class Nested(Calculated):
+    """What such a text is made of."""
 
-    `formula` is what resolving makes of the skeleton, and `names` the variables that it reads, once somebody asks.
-    """
+    __slots__ = ()
 
-    __slots__ = ("formula", "names", "numbers", "skeleton", "text")
-
-    pieces = ()
-    variables = None
-    beside = None
-    text: str
-    skeleton: str
-    numbers: tuple[str, ...]
-    formula: Any
-    names: tuple[str, ...] | None
-
-    def __init__(self, text: str, skeleton: str, numbers: tuple[str, ...]) -> None:
-        self.text = text
-        self.skeleton = skeleton
-        self.numbers = numbers
-        self.formula = None
-        self.names = None
-
-    __setattr__ = object.__setattr__
+    @staticmethod
+    def shape_of(skeleton: str) -> Shape | None:
+        """Return what a skeleton looks like; None where there may be something to tell of it."""
+        return known_shape(skeleton)
 
     def placed(self, whole: Span) -> tuple[Part, ...]:
         """Return the parts of a text that stands at a place."""

@@ -7,32 +7,13 @@ quotes, backslashes, nested calls or blanks too many is left to that, and so is 
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
-from orchestra.description.substitutions import SIGNATURES
+from orchestra.description.substitutions import SIGNATURES, Part, Shape
 from orchestra.patterns import pattern
 
 if TYPE_CHECKING:
     import re
-
-
-class Shape(NamedTuple):
-    """A template without a place: offsets in the text stand for spans."""
-
-    parts: tuple[Part, ...]
-    raw: str
-    begin: int
-    end: int
-    quoted: bool
-
-
-class Part(NamedTuple):
-    """Words, or a call: its name, and its arguments."""
-
-    text: str
-    arguments: tuple[Shape, ...] | None
-    begin: int
-    end: int
 
 
 _NAME = r"\$\(([A-Za-z][A-Za-z0-9_-]*)"

@@ -8,10 +8,11 @@ from __future__ import annotations
 from functools import lru_cache
 from typing import TYPE_CHECKING, Final, TypeAlias
 
+from orchestra.description.substitutions import Part as _Part
+from orchestra.description.substitutions import Shape
 from orchestra.description.text import Call, Words, new_call, new_template, new_words
 from orchestra.errors import Problems
-from orchestra.load.plain_calls import Part as _Part
-from orchestra.load.plain_calls import Shape, plain_shape
+from orchestra.load.plain_calls import plain_shape
 from orchestra.location import Span
 
 if TYPE_CHECKING:

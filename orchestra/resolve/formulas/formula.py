@@ -9,15 +9,15 @@ from __future__ import annotations
 from functools import lru_cache
 from typing import TYPE_CHECKING, Final
 
-from orchestra.load.nested import DIGIT, known_shape
+from orchestra.description.calculated import DIGIT
 from orchestra.resolve.formulas.expressions import Expression
 from orchestra.resolve.formulas.slots import calculating, slot_of
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
 
-    from orchestra.load.nested import Nested
-    from orchestra.load.plain_calls import Part, Shape
+    from orchestra.description.calculated import Calculated
+    from orchestra.description.substitutions import Part, Shape
     from orchestra.resolve.context import Read, Variables
     from orchestra.resolve.formulas.slots import Piece, Slot
 
@@ -52,17 +52,17 @@ class Formula:
             ]
         )
 
-    def text(self, nested: Nested, variables: Variables) -> tuple[str, tuple[Read, ...]] | None:
+    def text(self, calculation: Calculated, variables: Variables) -> tuple[str, tuple[Read, ...]] | None:
         """Return what a text comes to, and what was read for that, which is noted; None where that is not known."""
-        names, slot = nested.names, self._slot
+        names, slot = calculation.names, self._slot
         if names is None or slot is None:
             return None
         reads = variables.known(names)
         if reads is None:
             return None
         values = tuple([read.value for read in reads])
-        if nested.numbers:
-            text = slot(values, nested.numbers)
+        if calculation.numbers:
+            text = slot(values, calculation.numbers)
         elif values in self._texts:
             text = self._texts[values]
         else:
@@ -78,18 +78,18 @@ class Formula:
 
 
 @lru_cache(maxsize=256)
-def _formula(skeleton: str) -> Formula:
-    shape = known_shape(skeleton)
+def _formula(skeleton: str, shape_of: Callable[[str], Shape | None]) -> Formula:
+    shape = shape_of(skeleton)
     assert shape is not None  # noqa: S101 - else it were none
     return Formula(shape)
 
 
-def formula_of(nested: Nested) -> Formula:
+def formula_of(calculation: Calculated) -> Formula:
     """Return what a text comes to."""
-    formula: Formula | None = nested.formula
+    formula: Formula | None = calculation.formula
     if formula is None:
-        formula = nested.formula = _formula(nested.skeleton)
-        nested.names = formula.names(nested.numbers)
+        formula = calculation.formula = _formula(calculation.skeleton, calculation.shape_of)
+        calculation.names = formula.names(calculation.numbers)
     return formula
 
 

@@ -49,8 +49,8 @@ def check_comparisons(template: Template, run: Resolution) -> None:
     """Report the comparisons in a condition that are always true or always false."""
     if type(template) is MatchedTemplate:
         pieces = template.pieces
-        if pieces is None or pieces.variables is not None:
-            return  # of words and variables
+        if pieces is None or pieces.variables is not None or pieces.beside is not None:
+            return  # of words, variables and paths
         if type(pieces) is not Pieces and not _may_be_told(pieces, run):
             return
     for part in _parts(template):
@@ -66,7 +66,7 @@ def check_comparisons(template: Template, run: Resolution) -> None:
 
 
 def _may_be_told(
-    pieces: Any,  # noqa: ANN401 - a `Nested`, of which many files have none
+    pieces: Any,  # noqa: ANN401 - a `Calculated`, of which many files have none
     run: Resolution,
 ) -> bool:
     from orchestra.resolve.impossible.conditions_alike import may_be_told  # noqa: PLC0415 - as above

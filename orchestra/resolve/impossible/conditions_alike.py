@@ -15,8 +15,8 @@ if TYPE_CHECKING:
     import ast
     from collections.abc import Iterator
 
-    from orchestra.load.nested import Nested
-    from orchestra.load.plain_calls import Part, Shape
+    from orchestra.description.calculated import Calculated
+    from orchestra.description.substitutions import Part, Shape
     from orchestra.resolve.resolution import Resolution
 
 _COMPARISONS: Final = ("equals", "not-equals")
@@ -28,19 +28,21 @@ _OF_TEXTS: Final = ("T==T", "T!=T")
 _OF_NUMBERS: Final = frozenset("0.=!<>")
 
 
-def may_be_told(nested: Nested, run: Resolution) -> bool:
+def may_be_told(calculation: Calculated, run: Resolution) -> bool:
     """Return whether a comparison in a condition may come always to the same."""
-    formula = formula_of(nested)
+    formula = formula_of(calculation)
     if formula.telling is None:
         formula.telling = max(map(_telling, _outside(formula.shape)), default=_NOTHING)
-    if formula.telling != _OF_CHOICES or nested.names is None:
+    if formula.telling != _OF_CHOICES or calculation.names is None:
         return formula.telling != _NOTHING
-    return bool(run.found.choices) and any(run.found.choices_of(name) is not None for name in nested.names)
+    return bool(run.found.choices) and any(
+        run.found.choices_of(name) is not None for name in calculation.names
+    )
 
 
-def may_be_bare(nested: Nested) -> bool:
+def may_be_bare(calculation: Calculated) -> bool:
     """Return whether a comparison in a condition may be one of constants alone, or have a comma in it."""
-    formula = formula_of(nested)
+    formula = formula_of(calculation)
     if formula.bare is None:
         formula.bare = any(
             call.text in _COMPARISONS and (_is_constant(call) or formula.shape.raw.find(",") >= 0)

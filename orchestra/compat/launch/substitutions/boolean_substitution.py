@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Self
 
+from orchestra.compat.calculating import Calculating
 from orchestra.compat.described import described
 from orchestra.compat.launch.substitutions.two_sided import TwoSided
-from orchestra.compat.parsed import ParsedSubstitution
 from orchestra.compat.text import normalized
 
 if TYPE_CHECKING:
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from orchestra.compat.text import Sub
 
 
-class NotSubstitution(ParsedSubstitution):
+class NotSubstitution(Calculating):
     """True where the value is false."""
 
     _name = "not"
@@ -52,7 +52,7 @@ class OrSubstitution(TwoSided):
     _name = "or"
 
 
-class _OfMany(ParsedSubstitution):
+class _OfMany(Calculating):
     """Any number of values, which are all evaluated; the front ends hand them in as `args`."""
 
     def __init__(self, *values: Sub, args: Sequence[Sub] = ()) -> None:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from orchestra.compat.calculating import Calculating
 from orchestra.compat.described import described
-from orchestra.compat.parsed import ParsedSubstitution
 from orchestra.compat.text import normalized
 
 if TYPE_CHECKING:
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from orchestra.compat.text import Sub
 
 
-class IfElseSubstitution(ParsedSubstitution):
+class IfElseSubstitution(Calculating):
     """The first value where the condition is true, else the second; only the chosen one is performed.
 
     Raises `RuntimeError` where both are empty.

@@ -53,6 +53,13 @@ class LaunchConfiguration(ParsedSubstitution):
         name = self.__own_name()
         return (name,) if self.__default is None else (name, self.__default)
 
+    def _alone(self) -> str | None:
+        """Return the name where the variable is all there is, and nobody's code says what it comes to."""
+        name = self.__variable_name
+        if self.__default is not None or len(name) != 1 or type(self).perform is not PERFORM:
+            return None
+        return name[0].text or None if type(name[0]) is TextSubstitution else None
+
     def _whole(self) -> Template | None:
         if self._sure is not None and type(self).perform is PERFORM:
             return self._sure

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Self
 
+from orchestra.compat.calculating import Calculating
 from orchestra.compat.described import described
 from orchestra.compat.expressions import visible
 from orchestra.compat.launch.utilities.perform_substitutions_impl import perform_substitutions
-from orchestra.compat.parsed import ParsedSubstitution
 from orchestra.compat.performed import Concatenated
 from orchestra.compat.place import IN_CONSTRUCTOR, here
 from orchestra.compat.seam import connection, is_connected
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 _MATH = ("math",)
 
 
-class PythonExpression(ParsedSubstitution):
+class PythonExpression(Calculating):
     """The `str` of the result. The expression is unrestricted and sees some modules, `math` without a prefix too."""
 
     _name = "eval"
