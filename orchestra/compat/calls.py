@@ -7,25 +7,23 @@ from typing import TYPE_CHECKING, Any, Final
 from orchestra.compat.launch.substitution import Substitution
 from orchestra.compat.launch.substitutions.text_substitution import TextSubstitution
 from orchestra.compat.place import IN_CONSTRUCTOR, Arguments, Instructions, argument, here
-from orchestra.compat.text import template
-from orchestra.dataclass import maker
+from orchestra.compat.text import Composed, alone, is_changed, template
 from orchestra.description.text import (
     Call,
     Opaque,
-    Pieces,
+    PlainCall,
     Template,
     Words,
     matched_template,
     matched_words,
     new_call,
     new_template,
-    new_words,
 )
-from orchestra.description.written import called, escaped
+from orchestra.description.written import called
 from orchestra.location import Matched
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Sequence
 
     from orchestra.compat.launch.launch_context import LaunchContext
     from orchestra.compat.place import Place, Step
@@ -44,9 +42,15 @@ class CallSubstitution(Substitution):
 
     _name: str
     _kept: tuple[tuple[list[Substitution], ...], Template, Place] | None = None
+    # What it alone is as a text, as long as it has its arguments as they were given.
+    _sure: Template | None = None
 
     def __init__(self) -> None:
         self._place = here(self, IN_CONSTRUCTOR)
+
+    def _make(self, given: tuple[tuple[Any, ...], dict[str, Any]]) -> None:
+        self._known_as = self._sure = None
+        super()._make(given)
 
     def _arguments(self) -> Sequence[Sequence[Substitution]]:
         """Return the arguments of the call."""
@@ -75,6 +79,30 @@ class CallSubstitution(Substitution):
 
         It is kept as long as the arguments are the same texts.
         """
+        known = self._known_as
+        if known is None or is_changed():
+            return self._looked_at()
+        made = self._sure
+        if made is None:
+            composed, matched = (
+                alone(known, self._written),
+                _Kept(self, self._as_given or self._given_again()),
+            )
+            made = matched_template(composed.raw, False, matched, 0, composed)
+            self._sure = made
+        return made
+
+    def _written(self) -> str:
+        """Return how one is written that has its arguments as they were given."""
+        whole: Template = self._twin(self._as_given or self._given_again())._looked_at()
+        return whole.raw
+
+    def _given_again(self) -> tuple[tuple[Any, ...], dict[str, Any]]:
+        """Return what may be given to make another one that is known as the same."""
+        return (), {}
+
+    def _looked_at(self) -> Template | None:
+        """Return the same of what the constructor makes."""
         given = tuple(self._arguments())
         kept = self._kept
         if kept is not None and kept[0] == given and kept[2] is self._place:
@@ -93,7 +121,8 @@ class CallSubstitution(Substitution):
         if name is None:
             made = new_template((call,), raw, call.span)
         else:
-            made = matched_template(raw, False, _Made(self._place), 0, new_composed((call,), (name,)))
+            composed = Composed((PlainCall(_VALUE, (), 0, name),), (name,), None, raw)
+            made = matched_template(raw, False, _Called(self._place, call), 0, composed)
         if given and not others:
             self._kept = tuple(map(list, given)), made, self._place
         return made
@@ -123,61 +152,14 @@ class CallSubstitution(Substitution):
         return called(self._name, arguments)
 
 
-class Composed(Pieces):
-    """Texts and variables that code has put together: each variable is known where it was made."""
+class _Called(Matched):
+    """What a substitution comes to that is a call alone, which stands where it was made."""
 
-    __slots__ = ()
+    __slots__ = ("_call", "_place")
 
-    def placed(self, whole: Span) -> tuple[Part, ...]:
-        """Return them as parts of a text that stands at a place."""
-        pieces: tuple[Any, ...] = self.pieces
-        return tuple(
-            [
-                new_words(piece, whole)
-                if type(piece) is str
-                else piece.call
-                if type(piece) is _Variable
-                else piece
-                for piece in pieces
-            ]
-        )
-
-
-new_composed: Final[Callable[[tuple[Any, ...], tuple[str, ...]], Composed]] = maker(Composed)
-
-
-class _Variable:
-    """A variable by its name alone: few texts with it are ever asked for the call that it is."""
-
-    __slots__ = ("_call", "_name", "_place")
-
-    def __init__(self, name: str, place: Place) -> None:
-        self._name = name
+    def __init__(self, place: Place, call: Call) -> None:
         self._place = place
-        self._call: Call | None = None
-
-    @property
-    def call(self) -> Call:
-        """The call."""
-        if self._call is None:
-            name = template(self._name, argument(self._place, ("variable_name",)))
-            self._call = new_call(_VALUE, (name,), self._place.span)
-        return self._call
-
-
-def variable(name: str, place: Place) -> Template:
-    """Return the text that a variable alone is, by its name, which stands at a place."""
-    pieces = new_composed((_Variable(name, place),), (name,))
-    return matched_template(called(_VALUE, (escaped(name),)), False, _Made(place), 0, pieces)
-
-
-class _Made(Matched):
-    """What a substitution alone comes to stands where that was made."""
-
-    __slots__ = ("_place",)
-
-    def __init__(self, place: Place) -> None:
-        self._place = place
+        self._call = call
 
     @property
     def whole(self) -> Instructions:  # type: ignore[override] # nobody sets it
@@ -188,6 +170,36 @@ class _Made(Matched):
         """Return the place."""
         del group
         return self._place.span
+
+    def parts(self, span: Span) -> tuple[Part, ...]:
+        """Return the call."""
+        del span
+        return (self._call,)
+
+
+class _Kept(Matched):
+    """The same of one that has its arguments as they are `given`: the call is made of these when somebody asks."""
+
+    __slots__ = ("_given", "_made")
+
+    def __init__(self, made: CallSubstitution, given: Any) -> None:
+        self._made = made
+        self._given = given
+
+    @property
+    def whole(self) -> Instructions:  # type: ignore[override] # nobody sets it
+        """The text."""
+        return Instructions(self._made._place._code)
+
+    def span(self, group: int) -> Span:
+        """Return the place."""
+        del group
+        return self._made._place.span
+
+    def parts(self, span: Span) -> tuple[Part, ...]:
+        """Return the call."""
+        parts: tuple[Part, ...] = self._made._twin(self._given)._parts(span)
+        return parts
 
 
 def _is_known(item: Substitution) -> bool:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import sys
-from contextlib import contextmanager
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
@@ -14,7 +13,7 @@ from orchestra.location import FIELDS, Matched, Span, displayed, stretch
 from orchestra.witness.once import real
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Callable
     from types import CodeType, FrameType
 
 # What is known of codes; a code that is kept keeps its id.
@@ -23,7 +22,7 @@ _MOST_CODES: Final = 256
 # How files are shown of which that has been found out.
 _names: dict[str, str] = {}
 # Where everything stands that is made now, whoever makes it.
-_standing: list[Place] = []
+stands: list[Place] = []
 # What code of a launch file constructs now, and the frame of that code.
 NOBODY: Final = (None, None)
 called: list[tuple[Any, FrameType | None]] = [NOBODY]
@@ -174,20 +173,10 @@ def within(span: Span, *steps: Way) -> Span:
     return span.inside(*steps) if isinstance(span, Argument) else span
 
 
-@contextmanager
-def standing(place: Place) -> Iterator[None]:
-    """Let what is made for a while stand at a place: it makes up for what has not been made there."""
-    _standing.append(place)
-    try:
-        yield
-    finally:
-        _standing.pop()
-
-
 def here(made: object = None, depth: int = 1) -> Place:
     """Return the place in the user's code that led to this call: where `made` was made, by whatever subclass."""
-    if _standing:
-        return _standing[-1].of(made)
+    if stands:
+        return stands[-1].of(made)
     known, caller = called[0]
     if known is made and caller is not None:
         code = caller.f_code

@@ -11,18 +11,24 @@ from contextlib import contextmanager
 from functools import wraps
 from typing import TYPE_CHECKING, Any, Final
 
-from orchestra.compat.place import NOBODY, OURS, called, is_ours
+from orchestra.compat.place import NOBODY, Place, called, is_ours, is_own, stands
 from orchestra.compat.reported import ReportedError
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
-    from types import FrameType
+    from types import CodeType, FrameType
 
     from orchestra.errors import Problems
     from orchestra.location import Span
 
 _ROOM: Final = __name__.rpartition(".")[0] + "."
 _collectors: list[tuple[Problems, tuple[Span, ...]]] = []
+# Codes of launch files that construct something now, by their ids: all that is made by them stands there.
+_constructing: dict[int, CodeType] = {}
+_MOST_CODES: Final = 256
+# What keeps the arguments of a call as they are given, by the class that is constructed.
+_keeping: dict[type[Any], Callable[[Any, tuple[Any, ...], dict[str, Any]], bool]] = {}
+_new = object.__new__
 
 
 @contextmanager
@@ -33,6 +39,18 @@ def collecting(problems: Problems, chain: tuple[Span, ...]) -> Iterator[None]:
         yield
     finally:
         _collectors.pop()
+        _constructing.clear()
+
+
+@contextmanager
+def standing(place: Place) -> Iterator[None]:
+    """Let what is made for a while stand at a place: it makes up for what has not been made there."""
+    stands.append(place)
+    _constructing.clear()
+    try:
+        yield
+    finally:
+        stands.pop()
 
 
 def collector() -> tuple[Problems, tuple[Span, ...]] | None:
@@ -41,13 +59,39 @@ def collector() -> tuple[Problems, tuple[Span, ...]] | None:
 
 
 class Refusing:
-    """The root of such classes. `_refused` ones lack something that was wrong, `_lost` ones cannot be used at all."""
+    """The root of such classes. `_refused` ones lack something that was wrong, `_lost` ones cannot be used at all.
+
+    Launch files make thousands of some of them, of which few are ever asked for more than what they come to: these
+    have the arguments and the keywords `_as_given`, and where that was, until somebody asks for what is made of them.
+    """
 
     _refused = False
+    _as_given: tuple[tuple[Any, ...], dict[str, Any]] | None = None
+    _made_at: tuple[CodeType, int]
+    _place: Place
 
     def _taken(self, keywords: dict[str, Any], caller: FrameType) -> bool:  # noqa: ARG002 - for subclasses
         """Take the keywords of a call that nothing is wrong with; false where the constructor has to look at them."""
         return False
+
+    def _keep(self, arguments: tuple[Any, ...], keywords: dict[str, Any]) -> bool:  # noqa: ARG002 - as above
+        """Keep the arguments of a call that nothing is wrong with; false where the constructor has to look at them.
+
+        That is for the very class that has this method, not for those of users.
+        """
+        return False
+
+    def _make(self, given: tuple[tuple[Any, ...], dict[str, Any]]) -> None:
+        """Do what the constructor does with arguments that were kept."""
+        with standing(self._place):
+            self.__init__(*given[0], **given[1])  # type: ignore[misc] # with the arguments of the subclass
+
+    def _twin(self, given: tuple[tuple[Any, ...], dict[str, Any]]) -> Any:
+        """Return what another one is, made in the same place, that does not keep these arguments."""
+        made = _new(type(self))
+        made._place = self._place
+        made._make(given)
+        return made
 
     def _give_up(self) -> None:
         """Become what an object of this kind is that could not be made."""
@@ -55,13 +99,28 @@ class Refusing:
     def __init_subclass__(cls, **keywords: Any) -> None:
         super().__init_subclass__(**keywords)
         constructor = vars(cls).get("__init__")
-        if constructor is not None and cls.__module__.startswith(_ROOM):
+        if not cls.__module__.startswith(_ROOM):
+            return
+        if constructor is not None:
             cls.__init__ = _refusing(constructor)  # type: ignore[method-assign] # the same signature
+        if cls._keep is not Refusing._keep:
+            _keeping[cls] = cls._keep
 
     if not TYPE_CHECKING:  # else any attribute would be one
 
         def __getattr__(self, name: str) -> Any:
-            """Stop code that uses what could not be made. Raises `ReportedError`, else `AttributeError`."""
+            """Return what the constructor makes. Raises `ReportedError` for what could not be made.
+
+            Raises `AttributeError` for everything else.
+            """
+            given = self._as_given
+            if given is not None:
+                if "_place" not in vars(self):
+                    self._place = Place(*self._made_at, type(self))
+                if name != "_place":
+                    self._as_given = None
+                    self._make(given)
+                return getattr(self, name)
             kind = type(self).__name__
             if "_lost" in vars(self):
                 raise ReportedError(f"this {kind} could not be made, for a reason that is reported")
@@ -78,15 +137,20 @@ def _refusing(constructor: Callable[..., None]) -> Callable[..., None]:
 
     @wraps(constructor)
     def construct(self: Any, *arguments: Any, **keywords: Any) -> None:
-        if not _collectors:
-            constructor(self, *arguments, **keywords)
-            return
         caller = sys._getframe(1)
-        module = caller.f_globals.get("__name__")
-        # As `is_ours` does, without a call for each object.
-        if module.startswith(OURS) if type(module) is str else is_ours(caller):
+        code = caller.f_code
+        if id(code) in _constructing:
+            keep = _keeping.get(type(self))
+            if keep is not None and keep(self, arguments, keywords):
+                self._made_at = code, caller.f_lasti
+                return
+        elif not _collectors or is_ours(caller):
             constructor(self, *arguments, **keywords)
             return
+        elif code.co_name != "__init__" and not stands and not is_own(code.co_filename):
+            if len(_constructing) >= _MOST_CODES:
+                _constructing.clear()
+            _constructing[id(code)] = code
         try:
             if arguments or not self._taken(keywords, caller):
                 called[0] = self, caller

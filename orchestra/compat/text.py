@@ -7,22 +7,172 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from collections.abc import Set as AbstractSet
+from operator import attrgetter
 from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
 from orchestra.compat.launch.substitution import Substitution
 from orchestra.compat.launch.substitutions.text_substitution import TextSubstitution, text_of
 from orchestra.compat.place import Argument, Arguments, Place
 from orchestra.compat.wrong import WrongType
-from orchestra.description.text import matched_words, new_template, new_words
+from orchestra.dataclass import dataclass
+from orchestra.description.text import (
+    Pieces,
+    PlainCall,
+    PlainPath,
+    matched_template,
+    matched_words,
+    new_template,
+    new_words,
+)
 from orchestra.description.written import escaped
+from orchestra.location import Matched
 
 if TYPE_CHECKING:
-    from orchestra.description.text import Part, Template
+    from collections.abc import Callable
+
+    from orchestra.compat.place import Instructions, Way
+    from orchestra.description.text import MatchedTemplate, Part, Template
     from orchestra.location import Span
 
 Sub: TypeAlias = str | Substitution | Iterable[str | Substitution]
 
 _SERIES: Final = frozenset({list, tuple})
+_SEVERAL: Final = 2
+_MOST: Final = 4096
+_VARIABLE, _PATH = "var", "path-join"
+# Kinds of substitutions with what performs them: where that is still so, no code of launch files does.
+performing: Final[dict[type[Substitution], Any]] = {}
+_perform: Final = attrgetter("perform")
+
+
+@dataclass(frozen=True, slots=True)
+class Composed(Pieces):
+    """Texts and substitutions that code has put together, and how that is written; where, the match knows.
+
+    There is one for all that are given alike. `packages` are those whose places are in it, by the name of the call.
+    """
+
+    raw: str = ""
+    packages: tuple[tuple[str, str], ...] = ()
+
+    def placed_in(self, template: MatchedTemplate) -> tuple[Part, ...]:
+        """Return them as parts of a text."""
+        parts: tuple[Part, ...] = template.matched.parts(template.span)  # type: ignore[attr-defined] # one with `parts`
+        return parts
+
+
+# By what they are known as; None for several that are left to those who look at each.
+_composed: Final[dict[tuple[Any, ...], Composed | None]] = {}
+_alone: Final[dict[tuple[Any, ...], Composed]] = {}
+
+
+class Listed(Matched):
+    """Several texts and substitutions that stand in an argument of a call."""
+
+    __slots__ = ("_call", "_items")
+
+    def __init__(self, call: Arguments, items: Sequence[Any]) -> None:
+        self._call = call
+        self._items = tuple(items)
+
+    @property
+    def whole(self) -> Instructions:  # type: ignore[override] # nobody sets it
+        """The text, as that of the call."""
+        return self._call.whole
+
+    def span(self, group: Any) -> Span:
+        """Return the place of the argument, by its path."""
+        return self._call.span(group)
+
+    def parts(self, span: Span) -> tuple[Part, ...]:
+        """Return them as parts of a text that stands there."""
+        return joined(self._items, span)[0]
+
+
+def joined(items: Iterable[Any], span: Span) -> tuple[tuple[Part, ...], str]:
+    """Return texts and substitutions as the parts of a text at a place, and how it is written."""
+    parts: tuple[Part, ...] = ()
+    raw = ""
+    for item in items:
+        text = item.text if type(item) is TextSubstitution else item
+        if type(text) is str:
+            parts += (new_words(text, span),) if text else ()
+            raw += escaped(text)
+            continue
+        whole = item._whole()
+        if whole is None:
+            parts += item._parts(span)
+            raw += item._raw()
+        else:
+            parts += whole.parts
+            raw += whole.raw
+    return parts, raw
+
+
+def is_changed() -> bool:
+    """Return whether code has put something else in the place of what performs substitutions."""
+    return [*map(_perform, performing)] != [*performing.values()]
+
+
+def composed(
+    items: Sequence[Any], call: Arguments, path: tuple[Way, ...], *, quoted: bool = False
+) -> Template | None:
+    """Return several texts and substitutions that stand in an argument of a call; None where that takes a look."""
+    known = tuple([item if type(item) is str else getattr(item, "_known_as", None) for item in items])
+    found = _composed.get(known)
+    if found is None and known not in _composed:
+        if len(_composed) >= _MOST:
+            _composed.clear()
+        if not _is_plain(known):
+            found = _composed_of(known, joined(items, call.place.span)[1])
+        _composed[known] = found
+    if found is None or is_changed():
+        return None
+    return matched_template(found.raw, quoted, Listed(call, items), path, found)  # type: ignore[arg-type] # its groups are paths
+
+
+def alone(known: tuple[Any, ...], raw: Callable[[], str]) -> Composed:
+    """Return what a substitution alone is, which is known as this and written like that."""
+    found = _alone.get(known)
+    if found is None:
+        if len(_alone) >= _MOST:
+            _alone.clear()
+        found = _alone[known] = _composed_of((known,), raw())
+    return found
+
+
+def _is_plain(known: tuple[Any, ...]) -> bool:
+    """Return whether several items are one, or texts alone, or where that takes a look."""
+    return len(known) < _SEVERAL or None in known or "" in known or all(type(item) is str for item in known)
+
+
+def _composed_of(known: Iterable[Any], raw: str) -> Composed:
+    """Return what is made of items, by what they are known as."""
+    names: list[str] = []
+    packages: list[tuple[str, str]] = []
+    pieces = _pieces(known, names, packages)
+    others = [piece for piece in pieces if type(piece) is not str]
+    is_of_variables = all(type(piece) is PlainCall and piece.variable is not None for piece in others)
+    variables, beside = (tuple(names), None) if is_of_variables else (None, tuple(names))
+    return Composed(pieces, variables, beside, raw, tuple(packages))
+
+
+def _pieces(known: Iterable[Any], names: list[str], packages: list[tuple[str, str]]) -> tuple[Any, ...]:
+    found: list[Any] = []
+    for item in known:
+        if type(item) is str:
+            found.append(item)
+            continue
+        name, *arguments = item
+        if name == _PATH:
+            found.append(PlainPath(tuple([_pieces((each,), names, packages) for each in arguments])))
+            continue
+        if name == _VARIABLE:
+            names.append(arguments[0])
+        elif arguments:
+            packages.append((name, arguments[0]))
+        found.append(PlainCall(name, (), 0, arguments[0] if name == _VARIABLE else None))
+    return tuple(found)
 
 
 def normalized(subs: Sub) -> list[Substitution]:
@@ -49,21 +199,15 @@ def template(subs: Sub, span: Span, *, quoted: bool = False) -> Template:
                 return matched_words(subs, quoted, Arguments(place), path)  # type: ignore[arg-type] # its groups are paths
         return new_template((new_words(subs, span),) if subs else (), escaped(subs), span, quoted)
     items = _items(subs, span)
-    parts: tuple[Part, ...] = ()
-    raw = ""
-    for item in items:
-        whole = item._whole()
-        if whole is None:
-            parts += item._parts(span)
-            raw += item._raw()
-        elif len(items) == 1 and not quoted:
-            return whole
-        else:
-            parts += whole.parts
-            raw += whole.raw
-    if len(parts) == 1:
-        span = parts[0].span
-    return new_template(parts, raw, span, quoted)
+    if type(span) is Argument and type(span.place) is Place and span.path:
+        made = composed(items, Arguments(span.place), span.path, quoted=quoted)
+        if made is not None:
+            return made
+    whole = items[0]._whole() if len(items) == 1 and not quoted else None
+    if whole is not None:
+        return whole
+    parts, raw = joined(items, span)
+    return new_template(parts, raw, parts[0].span if len(parts) == 1 else span, quoted)
 
 
 def _items(subs: Sub, span: Span) -> Sequence[Substitution]:

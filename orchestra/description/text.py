@@ -154,6 +154,13 @@ class PlainCall:
     variable: str | None
 
 
+@dataclass(frozen=True, slots=True)
+class PlainPath:
+    """The components of a path that code joins, each in pieces."""
+
+    components: tuple[tuple[Any, ...], ...]
+
+
 Piece: TypeAlias = "str | PlainCall"
 
 
@@ -175,6 +182,10 @@ class Pieces:
     def placed(self, whole: Span) -> tuple[Part, ...]:
         """Return them as parts of a text that stands at a place."""
         return _placed(self.pieces, whole)
+
+    def placed_in(self, template: MatchedTemplate) -> tuple[Part, ...]:
+        """Return them as parts of a text."""
+        return self.placed(template.span)
 
 
 def pieces_of(pieces: Sequence[Piece]) -> Pieces:
@@ -220,7 +231,7 @@ class MatchedTemplate(Template):
         try:
             return self._parts
         except AttributeError:
-            made = self._words() if self.pieces is None else self.pieces.placed(self.span)
+            made = self._words() if self.pieces is None else self.pieces.placed_in(self)
             object.__setattr__(self, "_parts", made)
             return made
 

@@ -6,20 +6,21 @@ import os
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any, Final
 
-from orchestra.description.text import Call, MatchedTemplate, Opaque, Pieces, Words
+from orchestra.description.text import Call, MatchedTemplate, Opaque, Pieces, PlainPath, Words
 from orchestra.location import new_location
 from orchestra.resolve.context import POISON, Poison, new_value
 from orchestra.resolve.late_values import matched_value
 from orchestra.resolve.substitutions.table import performing
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterator, Sequence
 
     from orchestra.description.text import Part, Template
     from orchestra.resolve.context import Context, Evaluated, Read, Value
 
 _VARIABLE: Final = "var"
 _FOLDER: Final = "dirname"
+_PREFIX: Final = "find-pkg-prefix"
 _PLAIN: Final = (_VARIABLE, _FOLDER)
 _folder_of: Final = lru_cache(maxsize=64)(os.path.dirname)  # as `$(dirname)` does; many nodes are of one file
 
@@ -123,6 +124,8 @@ def plainly(template: MatchedTemplate, context: Context) -> tuple[str, tuple[Rea
         return pieces.filled([read.value for read in reads]), reads
     if pieces.beside is None:
         return None if type(pieces) is Pieces else _worked_out(pieces, context)
+    if type(pieces) is not Pieces:
+        return _put_together(pieces, context)
     if file is None:
         return None
     reads = context.variables.known(pieces.beside)
@@ -130,7 +133,7 @@ def plainly(template: MatchedTemplate, context: Context) -> tuple[str, tuple[Rea
 
 
 def _worked_out(
-    pieces: Any,  # noqa: ANN401 - a `Nested`, of which many files have none
+    pieces: Any,  # noqa: ANN401 - a `Calculated`, of which many files have none
     context: Context,
 ) -> tuple[str, tuple[Read, ...]] | None:
     """Return the same of calls in others, or with arguments in quotes, that do nothing but calculate."""
@@ -141,6 +144,40 @@ def _worked_out(
         formula = formula_of(pieces)
     found: tuple[str, tuple[Read, ...]] | None = formula.text(pieces, context.variables)
     return found
+
+
+def _put_together(
+    pieces: Any,  # noqa: ANN401 - those of texts that code has put together
+    context: Context,
+) -> tuple[str, tuple[Read, ...]] | None:
+    """Return the same of texts in which there are paths, or places of packages: these are known, or it is None."""
+    file, folders = context.file, []
+    for name, package in pieces.packages:
+        folder = (context.packages.prefix if name == _PREFIX else context.packages.share)(package)
+        if folder is None:
+            return None
+        folders.append(folder)
+    reads = None if file is None else context.variables.known(pieces.beside)
+    if file is None or reads is None:
+        return None
+    values = iter([read.value for read in reads])
+    return _text(pieces.pieces, _folder_of(file), values, iter(folders)), reads
+
+
+def _text(pieces: Sequence[Any], folder: str, values: Iterator[str], folders: Iterator[str]) -> str:
+    """Return what pieces come to, with the values of variables and the places of packages that are in them."""
+    found = []
+    for piece in pieces:
+        if type(piece) is str:
+            found.append(piece)
+        elif type(piece) is PlainPath:
+            components = [_text(component, folder, values, folders) for component in piece.components]
+            found.append(os.path.join(*components))  # noqa: PTH118 - as `$(path-join)` does
+        elif piece.name == _VARIABLE:
+            found.append(next(values))
+        else:
+            found.append(folder if piece.name == _FOLDER else next(folders))
+    return "".join(found)
 
 
 def _in_folder(pieces: Pieces, file: str, reads: Sequence[Read]) -> str:

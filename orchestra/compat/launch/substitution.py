@@ -25,7 +25,12 @@ class Substitution(Refusing):
 
     What a subclass performs is only known to it, so it stands in templates as an `Opaque` part. A subclass of ours
     that the launch language can say overrides `_parts` (see `orchestra.compat.calls`).
+
+    `_known_as` says all that one is which has its arguments as they were given: a text, or the name and the arguments
+    of a call; None for all others.
     """
+
+    _known_as: Any = None
 
     def __str__(self) -> str:
         """Return the class: what users make texts of, as in an f-string, shows that there is no text yet."""

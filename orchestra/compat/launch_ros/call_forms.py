@@ -10,12 +10,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
-from orchestra.compat.calls import new_composed
 from orchestra.compat.launch.substitutions.launch_configuration import PERFORM, LaunchConfiguration
 from orchestra.compat.launch_ros.call_code import Code, targets
 from orchestra.compat.launch_ros.plain_parameters import NO_PARAMETER, SCALARS, entries, value_of
 from orchestra.compat.launch_ros.plain_texts import (
     UnusualError,
+    composed,
     copied,
     entity,
     left,
@@ -24,7 +24,7 @@ from orchestra.compat.launch_ros.plain_texts import (
 )
 from orchestra.compat.place import argument
 from orchestra.description.parts import Param, Remap
-from orchestra.description.text import matched_template, matched_words, new_constant
+from orchestra.description.text import matched_words, new_constant
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
@@ -195,22 +195,17 @@ class _Reader:
 
     def _mixed(self, level: int, var: str, value: Sequence[Any], path: _Path) -> _Read:
         """Read several texts and variables as one text."""
-        skeleton, raw, pieces, names = [], "", "", []
-        for item_var, item in self._code.items(level, var, value):
+        skeleton, items = [], self._code.items(level, var, value)
+        for item_var, item in items:
             skeleton.append(self._code.leaf(item_var))
+            self._code.exactly(level + 1, item_var, type(item))
             if type(item) is str:
-                self._code.exactly(level + 1, item_var, str)
                 self._code.texts.append(item_var)
                 self._code.needed.append(item_var)
-                raw += f"{{{item_var}}}"
-                pieces += f"{item_var}, "
-            else:
-                whole = self._variable(level + 1, item_var)
-                raw += f"{{{whole}.raw}}"
-                pieces += f"{whole}.pieces.pieces[0], "
-                names.append(f"{whole}.pieces.variables")
-        called = names[0] if len(names) == 1 else f"({', '.join(f'*{name}' for name in names)})"
-        made = f'template(f"{raw}", False, call, {self._code.constant(path)}, composed(({pieces}), {called}))'
+        made = self._code.new(1)[0]
+        given = "".join(f"{item_var}, " for item_var, _ in items)
+        self._code.others.append(f"{made} = composed(({given}), call, {self._code.constant(path)})")
+        self._code.leaf(made)
         return tuple(skeleton) if type(value) is tuple else skeleton, made
 
     def _variable(self, level: int, var: str) -> str:
@@ -274,7 +269,7 @@ _NAMES: Final[dict[str, Any]] = {
     "Remap": Remap,
     "argument": argument,
     "around": ((), "", ""),
-    "composed": new_composed,
+    "composed": composed,
     "constant": new_constant,
     "copied": copied,
     "entity": entity,
@@ -284,7 +279,6 @@ _NAMES: Final[dict[str, Any]] = {
     "scalars": SCALARS,
     "standing_at": standing_at,
     "sure": _sure,
-    "template": matched_template,
     "unusual": (KeyError, UnusualError, ValueError),
     "value_of": value_of,
     "words": matched_words,

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.compat.launch_ros.plain_texts import read
-from orchestra.compat.place import Arguments, Place, standing
-from orchestra.compat.refusing import Refusing
+from orchestra.compat.place import Arguments, Place
+from orchestra.compat.refusing import Refusing, standing
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping

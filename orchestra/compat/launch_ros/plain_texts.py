@@ -4,24 +4,18 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
-from orchestra.compat.calls import CallSubstitution, Composed, new_composed
+from orchestra.compat.calls import CallSubstitution
 from orchestra.compat.launch.substitutions.text_substitution import TextSubstitution
+from orchestra.compat.text import composed as several
+from orchestra.compat.text import joined
 from orchestra.description.model import Model
-from orchestra.description.text import (
-    MatchedTemplate,
-    Template,
-    matched_template,
-    matched_words,
-    new_template,
-    new_words,
-)
+from orchestra.description.text import Template, matched_words, new_template, new_words
 from orchestra.description.written import escaped
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
     from orchestra.compat.place import Arguments, Way
-    from orchestra.description.text import Part
     from orchestra.location import Span
 
 
@@ -104,42 +98,17 @@ def divisible(text: str, span: Span) -> Template:
 
 def composed(items: Any, call: Arguments, path: tuple[Way, ...]) -> Template:
     """Return several texts and substitutions as one, which an argument of a call holds."""
-    pieces: list[Any] = []
-    names: tuple[str, ...] = ()
-    raw = ""
+    made = several(items, call, path)
+    if made is not None:
+        return made
+    if len(items) == 1 and type(items[0]) is not str and type(items[0]) is not TextSubstitution:
+        return whole_text(items[0])
+    span = call.span(path)
     for item in items:
-        text = item.text if type(item) is TextSubstitution else item
-        if type(text) is str:
-            pieces.append(text)
-            raw += text if "$" not in text and "\\" not in text else escaped(text)
-            continue
-        whole = whole_text(text)
-        if type(whole) is not MatchedTemplate or type(whole.pieces) is not Composed:
-            return joined(items, call.span(path))
-        pieces += whole.pieces.pieces
-        names += whole.pieces.variables or ()
-        raw += whole.raw
-    if len(pieces) < _SEVERAL or not names or "" in pieces:
-        return joined(items, call.span(path))
-    made = new_composed(tuple(pieces), names)
-    return matched_template(raw, False, call, path, made)  # type: ignore[arg-type] # its groups are paths
-
-
-def joined(items: Any, span: Span) -> Template:
-    """Return several texts and substitutions as one that stands at a place."""
-    parts: list[Part] = []
-    raw = ""
-    for item in items:
-        text = item.text if type(item) is TextSubstitution else item
-        if type(text) is str:
-            if text:
-                parts.append(new_words(text, span))
-            raw += escaped(text)
-        else:
-            whole = whole_text(text)
-            parts += whole.parts
-            raw += whole.raw
-    return new_template(tuple(parts), raw, parts[0].span if len(parts) == 1 else span)
+        if type(item) is not str and type(item) is not TextSubstitution:
+            whole_text(item)
+    parts, raw = joined(items, span)
+    return new_template(parts, raw, parts[0].span if len(parts) == 1 else span)
 
 
 def copied(value: Any) -> Any:
@@ -169,7 +138,6 @@ _OPTIONAL: Final = frozenset(
     | {"output", "prefix", "cwd", "additional_env", "condition", "emulate_tty", "respawn_delay", "on_exit"}
     | {"extra_arguments", "sigterm_timeout", "sigkill_timeout"}
 )
-_SEVERAL: Final = 2
 _SERIES: Final = frozenset({list, tuple})
 _new = object.__new__
 _set_beside: Final[Callable[[Any, dict[str, Any]], None]] = vars(Model)["__pydantic_private__"].__set__

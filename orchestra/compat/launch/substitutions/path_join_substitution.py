@@ -10,7 +10,7 @@ from orchestra.compat.launch.substitutions.text_substitution import TextSubstitu
 from orchestra.compat.parsed import ParsedSubstitution
 from orchestra.compat.performed import Concatenated
 from orchestra.compat.place import IN_CONSTRUCTOR, here
-from orchestra.compat.text import normalized
+from orchestra.compat.text import normalized, performing
 from orchestra.compat.wrong import WrongType
 from orchestra.description.written import escaped
 
@@ -38,6 +38,20 @@ class PathJoinSubstitution(ParsedSubstitution):
         if not components:
             raise WrongType("a PathJoinSubstitution needs at least one component", path=("substitutions",))
         self.__substitutions = components
+
+    def _keep(self, arguments: tuple[Any, ...], keywords: dict[str, Any]) -> bool:
+        items = arguments[0] if len(arguments) == 1 and not keywords else None
+        if type(items) is not list or not items:
+            return False
+        known = (
+            "path-join",
+            *[item if type(item) is str else getattr(item, "_known_as", None) for item in items],
+        )
+        if None in known:
+            return False
+        self._as_given = (items.copy(),), keywords
+        self._known_as = known
+        return True
 
     @classmethod
     def parse(cls, data: Sequence[Sub]) -> tuple[type[Self], dict[str, Any]]:
@@ -69,6 +83,9 @@ class PathJoinSubstitution(ParsedSubstitution):
 
     def _paths(self) -> Sequence[tuple[Step, ...]]:
         return [("substitutions", index) for index in range(len(self.substitutions))]
+
+
+performing[PathJoinSubstitution] = PathJoinSubstitution.perform
 
 
 def _follows(item: Substitution) -> bool:

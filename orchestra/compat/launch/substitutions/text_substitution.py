@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from orchestra.compat.launch.substitution import Substitution
 from orchestra.compat.wrong import WrongType
@@ -23,6 +23,17 @@ class TextSubstitution(Substitution):
             told = f"the text of a TextSubstitution is a str, not {type(text).__name__}: {text!r}"
             raise WrongType(told, path=("text",))
         self.__text = text
+
+    def _keep(self, arguments: tuple[Any, ...], keywords: dict[str, Any]) -> bool:
+        text = keywords.get("text")
+        if arguments or len(keywords) != 1 or type(text) is not str:
+            return False
+        self.__text = text
+        return True
+
+    @property
+    def _known_as(self) -> str | None:
+        return self.__text if type(self) is TextSubstitution else None
 
     @property
     def text(self) -> str:

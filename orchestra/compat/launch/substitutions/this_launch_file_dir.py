@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from orchestra.compat.parsed import ParsedSubstitution
+from orchestra.compat.text import performing
 
 if TYPE_CHECKING:
     from orchestra.compat.launch.launch_context import LaunchContext
@@ -15,6 +16,13 @@ class ThisLaunchFileDir(ParsedSubstitution):
 
     _name = "dirname"
 
+    def _keep(self, arguments: tuple[Any, ...], keywords: dict[str, Any]) -> bool:
+        if arguments or keywords:
+            return False
+        self._as_given = arguments, keywords
+        self._known_as = _ALONE
+        return True
+
     def describe(self) -> str:
         """Return what it is."""
         return "ThisLaunchFileDir()"
@@ -23,3 +31,7 @@ class ThisLaunchFileDir(ParsedSubstitution):
         """Return the path; what the user has put among the locals comes first. Raises `SubstitutionFailure`."""
         put: str | None = context.get_locals_as_dict().get("current_launch_file_directory")
         return super().perform(context) if put is None else put
+
+
+_ALONE = ("dirname",)
+performing[ThisLaunchFileDir] = ThisLaunchFileDir.perform

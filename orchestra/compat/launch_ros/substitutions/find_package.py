@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from orchestra.compat.ament_index_python.packages import get_package_prefix, get_package_share_directory
 from orchestra.compat.described import described
 from orchestra.compat.parsed import ParsedSubstitution
-from orchestra.compat.text import normalized
+from orchestra.compat.text import normalized, performing
 from orchestra.description.text import Call, Opaque, Template, Words
 
 if TYPE_CHECKING:
@@ -67,8 +67,19 @@ class FindPackage(ParsedSubstitution):
         return find is not FindPackage.find and find.__module__.startswith("orchestra.compat.")
 
 
+def _keep(self: FindPackage, arguments: tuple[Any, ...], keywords: dict[str, Any]) -> bool:
+    """See `Refusing`: only those that the launch language can say keep what they are given."""
+    if keywords or len(arguments) != 1 or type(arguments[0]) is not str:
+        return False
+    self._as_given = arguments, keywords
+    self._known_as = self._name, arguments[0]
+    return True
+
+
 class FindPackagePrefix(FindPackage):
     """The install prefix."""
+
+    _keep = _keep
 
     def find(self, package_name: str) -> str:
         """Return the install prefix of a package. Raises `PackageNotFoundError`."""
@@ -79,7 +90,11 @@ class FindPackageShare(FindPackage):
     """The share folder."""
 
     _name = "find-pkg-share"
+    _keep = _keep
 
     def find(self, package_name: str) -> str:
         """Return the share folder of a package. Raises `PackageNotFoundError`."""
         return get_package_share_directory(package_name)
+
+
+performing.update({kind: kind.perform for kind in (FindPackagePrefix, FindPackageShare)})
