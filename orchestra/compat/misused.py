@@ -12,6 +12,7 @@ from itertools import chain
 from types import CodeType
 from typing import TYPE_CHECKING, Final
 
+from orchestra.compat.signs import gives_twice
 from orchestra.patterns import pattern
 
 if TYPE_CHECKING:
@@ -62,7 +63,6 @@ _WAITED_FOR: Final = pattern(rb"\b(?:target_action|target_lifecycle_node)[ \t]*=
 _DONE: Final = pattern(rb"\b(?:on_\w+|entities|actions)[ \t]*=[ \t]*\[?\s{0,80}(\w+)")
 _DOTTED: Final = pattern(rb"['\"]\w+(?:\.\w+)+['\"][ \t]*:")
 _ENDS_DOTTED: Final = pattern(rb"\.\w+['\"][ \t]*:")
-_SIDE_BY_SIDE: Final = pattern(rb"parameters\s{0,4}=\s{0,4}\[[^\]]{0,800}\}\s{0,80},\s{0,80}\{")
 _ITEMS: Final = pattern(rb"[\[,]\s{0,80}(\w+)[ \t]{0,80}(?=,|\s{0,80}\])")
 _IN_WORDS: Final = pattern(
     rb"(?:cmd|arguments)\s{0,9}=\s{0,9}\[[^\]]{0,300}\[\s{0,80}['\"][^\]'\"]{0,200}['\"]\s{0,80},\s{0,80}['\"]"
@@ -157,7 +157,7 @@ def _signs(words: _Words, source: bytes) -> Iterator[bool]:
     yield is_later and (b"lambda" in source or b"  def " in source)
     has_keys = words.has_dots and _ENDS_DOTTED.search(source) is not None
     yield has_keys and _DOTTED.search(source) is not None
-    yield (b"}, {" in source or b"},\n" in source) and _SIDE_BY_SIDE.search(source) is not None
+    yield gives_twice(source)
     places = [at for word in (b"arguments", b"cmd") for at in _places(word, source)]
     has_lists = any(_holds_list(source, at) for at in places) and any(sign in source for sign in _IN_LISTS)
     yield has_lists and any(_IN_WORDS.match(source, at) for at in places)

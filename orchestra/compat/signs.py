@@ -7,6 +7,8 @@ from functools import cache
 from types import CodeType
 from typing import Final
 
+from orchestra.patterns import pattern
+
 _BYTE: Final = 0xFF
 # Lines that compare, assert in brackets, or call a method of a text.
 _COMPARED: Final = re.compile(rb"""\n[ \t]*+\w[\w.\[\]'"]*+[ \t]*+==""")
@@ -29,6 +31,13 @@ _OF_EVENT: Final = re.compile(rb"(?:lambda[ \t]+|def[ \t]+\w+\((?:self,[ \t]*)?)
 # An empty list or dictionary that may be the default of a parameter.
 _EMPTY: Final = re.compile(rb"def [^\n:]*=[ \t]*(?:\[[ \t]*\]|\{[ \t]*\}|list\(\)|dict\(\))")
 _ITERATORS: Final = frozenset({"filter", "map", "zip"})
+# Two dictionaries side by side in a list of parameters, and where such a list begins.
+_SIDE_BY_SIDE: Final = pattern(rb"parameters\s{0,4}=\s{0,4}\[[^\]]{0,800}\}\s{0,80},\s{0,80}\{")
+_PARAMETERS: Final = pattern(rb"parameters\s{0,4}=\s{0,4}\[")
+# What tells of the names in it: texts, which of them are keys, and brackets.
+_IN_LIST: Final = pattern(rb"""(?:'([^'\\\n]*)'|"([^"\\\n]*)")\s*(:)?|#[^\n]*|[\[\]{}]""")
+# Texts that have escapes or lines, or are put together.
+_READ_OTHERWISE: Final = pattern(rb"""\\|'''|\"{3}|[\w.]['"]\s*[bfru]{0,2}['"]""")
 
 
 def has_idle_logic(code: CodeType, source: bytes) -> bool:
@@ -97,6 +106,33 @@ def has_event_functions(_code: CodeType, source: bytes) -> bool:
     """Return whether a function may be called with what an event handler waits for."""
     has_handler = any(sign in source for sign in (b"OnProcess", b"OnShutdown", b"OnExecution"))
     return has_handler and _OF_EVENT.search(source) is not None
+
+
+def gives_twice(source: bytes) -> bool:
+    """Return whether two dictionaries in a list of parameters may both have a value for one name."""
+    if (b"}, {" not in source and b"},\n" not in source) or _SIDE_BY_SIDE.search(source) is None:
+        return False
+    return any(_has_twice(source, found.end()) for found in _PARAMETERS.finditer(source))
+
+
+def _has_twice(source: bytes, begin: int) -> bool:
+    """Return whether two names in different dictionaries of the list that begins there may end in the same part."""
+    ends: dict[bytes, int] = {}
+    depth, index, end = 1, 0, begin
+    for found in _IN_LIST.finditer(source, begin):
+        first, end = found[0][:1], found.end()
+        if found[3]:
+            name = (found[1] or found[2] or b"").rpartition(b".")[2]
+            if ends.setdefault(name, index) != index:
+                return True
+        elif first in b"[{":
+            index += depth == 1
+            depth += 1
+        elif first in b"]}":
+            depth -= 1
+            if not depth:
+                break
+    return _READ_OTHERWISE.search(source, begin, end) is not None
 
 
 def sets_tuples(code: CodeType, _source: bytes = b"") -> bool:

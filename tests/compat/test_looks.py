@@ -8,6 +8,7 @@ import pytest
 
 from orchestra.compat import syntax_trees
 from orchestra.compat.looks import Compiled, has_doubled_keys, has_joined_words
+from orchestra.compat.signs import gives_twice
 from orchestra.errors import Problems
 from orchestra.pipeline import collect, inputs_from
 from tests.compat.modules import loaded
@@ -84,7 +85,7 @@ def node(number, *, robot):
         name=f"node{number}",
         namespace=robot,
         arguments=["--level", str(number), "-v"],
-        parameters=[{"pose": [0.0, 0.0, 0.5], "flags": FLAGS, "inner": {"rate": 5, "frame": [robot, "/base"]}}],
+        parameters=[{"pose": [0.0, 0.0, 0.5], "flags": FLAGS}, {"inner": {"rate": 5, "frame": [robot, "/base"]}}],
         remappings=[("scan", f"scan{number}"), ("/tf", "tf"), ("/tf_static", "tf_static")],
     )
 
@@ -101,6 +102,24 @@ def generate_launch_description():
     ld.add_action(last)
     return ld
 """
+
+
+@pytest.mark.parametrize(
+    ("listed", "twice"),
+    [
+        ("{'rate': 1}, {'frame': 'map'}", False),
+        ("{'rate': 1}, {'rate': 2}", True),
+        ("{'rate': 1, 'text': '['}, {  # not this one]\n'other': [{}], 'rate': 2}", True),
+        ("{'limits': {'lower': 1}}, {'limits.lower': 2}", True),
+        ("{'rate': 1}, {\"rate\": 2}", True),
+        ("{'rate': 1}, {'ra' 'te': 2}", True),
+        ("{'rate': 1}, {'r\\x61te': 2}", True),
+        ("{'lower': 1, 'limits': {'lower': 1}}, {'upper': 2}", False),
+        ("{'rate': 1}, {'frame': 'map'}], remappings=[('rate', 'rate')], more=[{'rate': 1}", False),
+    ],
+)
+def test_parameters_that_may_be_given_twice_are_looked_for(listed: str, *, twice: bool) -> None:
+    assert gives_twice(f"Node(parameters=[{listed}])\n".encode()) == twice
 
 
 def test_a_sound_file_takes_no_syntax_tree(tmp_path: Path) -> None:
