@@ -12,7 +12,8 @@ from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
 from orchestra.compat.launch.substitutions.launch_configuration import PERFORM, LaunchConfiguration
 from orchestra.compat.launch_ros.call_code import Code, targets
-from orchestra.compat.launch_ros.plain_parameters import NO_PARAMETER, SCALARS, entries, value_of
+from orchestra.compat.launch_ros.parameter_descriptions import ParameterFile
+from orchestra.compat.launch_ros.plain_parameters import NO_PARAMETER, SCALARS, entries, file_of, value_of
 from orchestra.compat.launch_ros.plain_texts import (
     UnusualError,
     composed,
@@ -102,6 +103,12 @@ class _Reader:
             path = (name, index)
             if type(item) is dict:
                 own, part = self._entries(item_var, item, path)
+            elif type(item) is ParameterFile:
+                self._code.exactly(1, item_var, ParameterFile)
+                part = self._code.new(1)[0]
+                self._code.others.append(f"{part} = file_of({item_var})")
+                self._code.leaf(part)
+                own = self._code.leaf(item_var)
             else:
                 own, file = self._text(1, item_var, item, path)
                 part = _param({"from_": file}, f"standing_at(call, {self._code.constant(path)})")
@@ -274,6 +281,7 @@ _NAMES: Final[dict[str, Any]] = {
     "copied": copied,
     "entity": entity,
     "entries": entries,
+    "file_of": file_of,
     "perform": PERFORM,
     "plain_text": plain_text,
     "scalars": SCALARS,

@@ -123,6 +123,22 @@ class ParameterFile(Refusing):
         )
         self.__allow_substs = allow_substs
 
+    def _keep(self, arguments: tuple[Any, ...], keywords: dict[str, Any]) -> bool:
+        if len(arguments) != 1 or (keywords and type(keywords.get("allow_substs")) is not bool):
+            return False
+        path = arguments[0]
+        if type(path) is list:
+            for item in path:
+                if type(item) is not str and not isinstance(item, Substitution):
+                    return False
+            path = path.copy()
+        elif type(path) is not str and not isinstance(path, Substitution):
+            return False
+        if len(keywords) > 1:
+            return False
+        self._as_given = (path,), keywords
+        return True
+
     @property
     def param_file(self) -> Any:
         """The path that it came to, before that what it is made of."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Final
 
+from orchestra.compat.launch_ros.parameter_descriptions import ParameterFile
 from orchestra.compat.launch_ros.plain_texts import (
     UnusualError,
     composed,
@@ -13,14 +14,14 @@ from orchestra.compat.launch_ros.plain_texts import (
     standing_at,
     whole_text,
 )
-from orchestra.compat.place import argument
+from orchestra.compat.place import Arguments, argument
 from orchestra.description.parts import Param, Remap
 from orchestra.description.text import matched_words, new_constant, new_template, new_words
 from orchestra.description.written import escaped
 
 if TYPE_CHECKING:
     from orchestra.compat.launch_ros.plain_texts import Reader
-    from orchestra.compat.place import Arguments, Way
+    from orchestra.compat.place import Way
     from orchestra.description.text import Part
 
 
@@ -36,6 +37,9 @@ def parameters(field: str) -> Reader:
             path = (name, index)
             if type(item) is dict:
                 own.append(entries(item, ((), "", ""), call, path, made))
+            elif type(item) is ParameterFile:
+                made.append(file_of(item))
+                own.append(item)
             else:
                 file = plain_text(item, call, path)
                 made.append(_param({"from_": file}, standing_at(call, path)))
@@ -44,6 +48,18 @@ def parameters(field: str) -> Reader:
         kept[name] = own
 
     return reader
+
+
+def file_of(item: ParameterFile) -> Param:
+    """Return a parameter file that has its arguments as they were given, at its own place."""
+    if item._as_given is None:
+        raise UnusualError
+    (path,), keywords = item._as_given
+    call = Arguments(item._place)
+    fields = {"from_": plain_text(path, call, _FILE)}
+    if keywords.get("allow_substs"):
+        fields["allow_substs"] = plain_text("true", call, _FILE)
+    return _param(fields, standing_at(call, _FILE))
 
 
 def remaps(name: str, value: Any, call: Arguments, fields: dict[str, Any], kept: dict[str, Any]) -> None:
@@ -120,5 +136,6 @@ def value_of(value: Any, call: Arguments, path: tuple[Way, ...]) -> tuple[Any, A
 
 
 _SIDES: Final = 2
+_FILE: Final = ("param_file",)
 SCALARS: Final = frozenset({str, bool, int, float})
 NO_PARAMETER: Final = Param._unwritten()
