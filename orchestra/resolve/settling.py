@@ -95,10 +95,9 @@ def settled_actions(occasion: Occasion, run: Resolution) -> tuple[TriggeredActio
 def processes_of(target: Any, run: Resolution) -> tuple[int, ...]:  # noqa: ANN401 - an object or a predicate
     """Return the processes that an object of a Python launch file made, or those whose objects a predicate accepts."""
     made = run.found.made_by(target)
-    if made or not callable(target):
-        return made
-    processes = enumerate(tuple(run.found.processes))
-    return tuple(index for index, process in processes if run.engine.accepts(target, index, process))
+    if not made and callable(target):
+        made = run.engine.accepted(target)
+    return made
 
 
 def _serves_code(handler: Any) -> bool:  # noqa: ANN401 - an event handler or None

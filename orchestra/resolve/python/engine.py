@@ -30,7 +30,7 @@ from orchestra.resolve.python.configurations import Configurations, Environment
 from orchestra.resolve.python.emitting import emit, handle_events
 from orchestra.resolve.python.failures import failure, unevaluated
 from orchestra.resolve.python.loading import load_description
-from orchestra.resolve.python.matching import accepts
+from orchestra.resolve.python.matching import accepted
 from orchestra.resolve.python.visiting import visit_entities
 
 if TYPE_CHECKING:
@@ -39,7 +39,6 @@ if TYPE_CHECKING:
     from orchestra.description.entity import Action
     from orchestra.description.text import Template
     from orchestra.location import Span
-    from orchestra.resolve.model import ResolvedProcess
     from orchestra.resolve.resolution import Resolution
 
 
@@ -182,9 +181,9 @@ class ResolvingEngine:
                     found.append(handler)
         return found
 
-    def accepts(self, predicate: Any, index: int, process: ResolvedProcess) -> bool:
-        """Return whether a predicate on actions means a process."""
-        return accepts(predicate, index, process, self._run)
+    def accepted(self, predicate: Any) -> tuple[int, ...]:
+        """Return the processes that a predicate on actions means."""
+        return accepted(predicate, self._run)
 
     def completed(self, action: Any) -> None:
         """Take note that an action has been executed."""

@@ -13,10 +13,18 @@ if TYPE_CHECKING:
     from orchestra.resolve.resolution import Resolution
 
 
-def accepts(predicate: Any, index: int, process: ResolvedProcess, run: Resolution) -> bool:
-    """Return whether a predicate means a process: one of ours by what it looks for, another by calling it."""
-    if isinstance(predicate, ActionMatcher):
-        return _looked_for(predicate, index, process)
+def accepted(predicate: Any, run: Resolution) -> tuple[int, ...]:
+    """Return the processes that a predicate means: one of ours by what it looks for, another by calling it."""
+    if not isinstance(predicate, ActionMatcher):
+        processes = enumerate(tuple(run.found.processes))
+        return tuple(index for index, process in processes if _accepts(predicate, process, run))
+    if predicate.by == "action":
+        return run.found.made_by(predicate.target)
+    processes = enumerate(run.found.processes)
+    return tuple(index for index, process in processes if _looked_for(predicate, index, process))
+
+
+def _accepts(predicate: Any, process: ResolvedProcess, run: Resolution) -> bool:
     if process.origin is None:
         return False
     answers: list[Any] = []
@@ -27,8 +35,6 @@ def accepts(predicate: Any, index: int, process: ResolvedProcess, run: Resolutio
 
 def _looked_for(matcher: ActionMatcher, index: int, process: ResolvedProcess) -> bool:
     match matcher.by:
-        case "action":
-            return process.origin is matcher.target
         case "name":
             return bool(matcher.target == name_in_launch(process, index))
         case "executable":
