@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from itertools import repeat
+from operator import itemgetter
 from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.compat.looks import Compiled
 from orchestra.resolve.python.form_codes import Classes, CodeForm, Columns, is_same
-from orchestra.resolve.python.form_slots import QUOTES, Name, Sum, is_sum, number_of, sum_of
+from orchestra.resolve.python.form_slots import QUOTES, Name, Sum, is_sum, sum_of
+from orchestra.resolve.python.form_texts import FormText
 from orchestra.resolve.python.numbered import Told, numbers_of
 
 if TYPE_CHECKING:
@@ -14,7 +17,6 @@ if TYPE_CHECKING:
     from types import CodeType
 
 _ASKING_NO_TEXT: Final = ("harmless", "tuples")  # looks at names and instructions, and at kinds of constants
-_CODING: Final = "coding"  # how a file is written, as a comment may say
 
 
 class Form:
@@ -34,10 +36,9 @@ class Form:
         """
         (parts, compiled), (others, other) = first, second
         self._first = compiled
-        self._slots, self._end = _slots(parts, places)
+        self._text = FormText(parts, places)
         self._befores = [before for before in places.values() if before is not None]
-        self._comments = [number for number, before in enumerate(places.values()) if before is None]
-        own, values = self._values("".join(parts)), self._values("".join(others))
+        own, values = self._text.values("".join(parts)), self._text.values("".join(others))
         if own is None or values is None:
             raise ValueError("slots are not where they seemed to be")
         self._kinds = [
@@ -60,7 +61,7 @@ class Form:
         if made is None or not self._taken.isdisjoint(keys) or not is_same(made, other.code):
             raise ValueError("the compiler makes something else")
         self._knows_moves = self._moved[1] is not None
-        self._told = Told(numbers_of("\n".join(piece for piece, _, _ in self._slots) + self._end))
+        self._told = Told(numbers_of(self._text.fixed))
         self._told.share(other, self._differing(values), None)
 
     def _number(self, own: Sequence[str]) -> None:
@@ -70,45 +71,28 @@ class Form:
         numbers = {value: number for number, value in enumerate(order)}
         self._pattern = [numbers[value] for value in named]
         self._firsts = [named.index(value) for value in order]
-        self._others = [(kind, before) for kind, before, _ in order if kind is not str]
-        self._texts = len(order) - len(self._others)
-
-    def _values(self, text: str) -> list[str] | None:
-        """Return what stands in the slots of a text; None where the rest of it is another one."""
-        found: list[str] = []
-        at = 0
-        for piece, size, stop in self._slots:
-            if not text.startswith(piece, at):
-                return None
-            at += size
-            end = text.find(stop, at)
-            if end < 0:
-                return None
-            found.append(text[at:end])
-            at = end
-        if text[at:] != self._end:
-            return None
-        for number in reversed(self._comments):
-            if _CODING in found[number] or "\n" in found[number]:
-                return None
-            del found[number]
-        return found
+        kinds = [kind for kind, _, _ in order]
+        self._texts = kinds.count(str)
+        self._floats = self._texts + kinds.count(int)
+        self._others_begin = self._floats + kinds.count(float)
+        self._others = [(kind, before) for kind, before, _ in order[self._others_begin :]]
 
     def _keys(self, values: Sequence[str]) -> list[Any] | None:
         """Return the values that differ, a number with its type; None where others do than in the form."""
-        own = [values[place] for place in self._firsts]
-        if [own[number] for number in self._pattern] != values:
+        own = list(map(values.__getitem__, self._firsts))
+        if list(map(own.__getitem__, self._pattern)) != values:
             return None
         keys: list[Any] = own[: self._texts]
         written = "".join(keys)
         if "\\" in written or "\n" in written:
             return None
-        for (kind, before), value in zip(self._others, own[self._texts :], strict=True):
-            if kind is Sum:
-                key = sum_of(value)
-            else:
-                key = (Name, before + value) if kind is Name and value.isdigit() else number_of(value)
-            if key is None or (key[0] is not kind and kind is not Sum):
+        numbers = _numbers(own[self._texts : self._floats], own[self._floats : self._others_begin])
+        if numbers is None:
+            return None
+        keys += numbers
+        for (kind, before), value in zip(self._others, own[self._others_begin :], strict=True):
+            key = sum_of(value) if kind is Sum else _name_of(before + value, value)
+            if key is None:
                 return None
             keys.append(key)
         known = set(keys)
@@ -116,7 +100,7 @@ class Form:
 
     def compiled(self, path: str, source: bytes, text: str) -> Compiled | None:
         """Return the code of a text, as of a file at a path; None where the form says nothing of it."""
-        values = self._values(text)
+        values = self._text.values(text)
         keys = None if values is None else self._keys(values)
         if values is None or keys is None:
             return None
@@ -135,13 +119,31 @@ class Form:
         shifts = self._moved[1]
         if shifts is not None and not self._knows_moves:
             return None
-        return self._code.made(path, [key if type(key) is str else key[1] for key in keys], shifts)
+        values = [*keys[: self._texts], *map(itemgetter(1), keys[self._texts :])]
+        return self._code.made(path, values, shifts)
 
     def _differing(self, values: Sequence[str]) -> bytes:
-        return "\n".join([values[place] for place in self._firsts]).encode()
+        return "\n".join(map(values.__getitem__, self._firsts)).encode()
 
 
 _ORDER: Final = {str: 0, int: 1, float: 2, Sum: 3, Name: 4}
+
+
+def _numbers(whole: list[str], others: list[str]) -> list[tuple[type[Any], Any]] | None:
+    """Return the values of numbers with their types; None where one is written in another way than it is shown."""
+    if not all("." in number for number in others):
+        return None
+    try:
+        ints, floats = list(map(int, whole)), list(map(float, others))
+    except ValueError:
+        return None
+    if list(map(repr, ints)) != whole or list(map(repr, floats)) != others:
+        return None
+    return [*zip(repeat(int), ints), *zip(repeat(float), floats)]
+
+
+def _name_of(name: str, end: str) -> tuple[type[Any], str] | None:
+    return (Name, name) if end.isdigit() else None
 
 
 def _kind(literal: str, before: str) -> type[Any]:
@@ -152,22 +154,3 @@ def _kind(literal: str, before: str) -> type[Any]:
     if is_sum(literal):
         return Sum
     return float if "." in literal else int
-
-
-def _slots(parts: Sequence[str], places: Mapping[int, str | None]) -> tuple[list[tuple[str, int, str]], str]:
-    """Return what stands before each slot, how long that is, and what the slot ends with; and the end of the text."""
-    found: list[tuple[str, int, str]] = []
-    fixed = ""
-    last = 0
-    for index, before in places.items():
-        literal = parts[2 * index + 1]
-        fixed += "".join(parts[last : 2 * index + 1])
-        last = 2 * index + 2
-        if before is None:
-            piece, stop, fixed = fixed + literal[0], "\n", ""
-        elif literal[0] in QUOTES:
-            piece, stop, fixed = fixed + literal[0], literal[0], literal[0]
-        else:
-            piece, stop, fixed = fixed, parts[last][0], ""
-        found.append((piece, len(piece), stop))
-    return found, fixed + "".join(parts[last:])

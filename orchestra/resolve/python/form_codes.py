@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from bisect import bisect_left
 from itertools import accumulate
 from operator import sub
 from types import CodeType
@@ -84,7 +85,8 @@ class Columns:
 
     def __init__(self, parts: Sequence[str], places: Iterable[int]) -> None:
         """Take the places of literals in a text that was split, in their order."""
-        self._before: dict[int, list[tuple[int, int]]] = {}
+        # By lines: where literals begin, and the number of the one before the first of them.
+        self._before: dict[int, tuple[list[int], int]] = {}
         self._begin: list[bool] = []
         text, ends = "".join(parts), list(accumulate(map(len, parts)))
         line, last = 1, 0
@@ -92,9 +94,9 @@ class Columns:
             at = ends[2 * place]
             line += text.count("\n", last, at)
             last = at
-            known = self._before.setdefault(line, [])
-            self._begin.append(not known)
-            known.append((at - text.rfind("\n", 0, at) - 1, len(self._begin)))
+            begins, _ = self._before.setdefault(line, ([], len(self._begin)))
+            self._begin.append(not begins)
+            begins.append(at - text.rfind("\n", 0, at) - 1)
 
     @property
     def lines(self) -> Collection[int]:
@@ -103,12 +105,11 @@ class Columns:
 
     def number(self, line: int, column: int) -> int:
         """Return the number of the last literal of a line that begins before a column, 0 for none."""
-        found = 0
-        for begin, number in self._before.get(line, ()):
-            if begin >= column:
-                break
-            found = number
-        return found
+        known = self._before.get(line)
+        if known is None:
+            return 0
+        before = bisect_left(known[0], column)
+        return known[1] + before if before else 0
 
     def shifts(self, widths: Sequence[int], own: Sequence[int]) -> list[int] | None:
         """Return by the numbers of literals how far what follows moves with other widths; None where not."""

@@ -8,6 +8,7 @@ written anew for each shift; few shifts are not asked for again.
 from __future__ import annotations
 
 import re
+from functools import lru_cache
 from typing import TYPE_CHECKING, Final, TypeAlias
 
 if TYPE_CHECKING:
@@ -38,8 +39,12 @@ class LineTable:
 
         `moved_by` says for a line and a column of it the number of the shift that it has, 0 for none.
         """
-        self._pieces: list[bytes | tuple[int, int, _Entry, dict[tuple[int, int], bytes]]] = []
+        self._pieces: list[bytes] = []  # what stays and what moves in turn
+        self._begins, self._ends = list[int](), list[int]()
+        self._entries: list[_Entry] = []
+        self._ways: list[dict[tuple[int, int], bytes]] = []  # the same for those that are the same
         self._last: tuple[Sequence[int], bytes] | None = None
+        ways: dict[_Entry, dict[tuple[int, int], bytes]] = {}
         line, fixed = first, list[bytes]()
         for written in _ENTRY.findall(table):
             if line not in lines and (written[0] >> 3) & 15 < _ONE_LINE:  # of a line that does not move
@@ -55,8 +60,11 @@ class LineTable:
             if begin == behind == 0:
                 fixed.append(written)
                 continue
-            self._pieces.append(b"".join(fixed))
-            self._pieces.append((begin, behind, entry, {}))
+            self._pieces += (b"".join(fixed), written)
+            self._begins.append(begin)
+            self._ends.append(behind)
+            self._entries.append(entry)
+            self._ways.append(ways.setdefault(entry, {}))
             fixed.clear()
         self._pieces.append(b"".join(fixed))
 
@@ -64,23 +72,28 @@ class LineTable:
         """Return the table with its columns moved by the shifts of those numbers."""
         if self._last is not None and self._last[0] == shifts:
             return self._last[1]
-        found = []
-        for piece in self._pieces:
-            if isinstance(piece, bytes):
-                found.append(piece)
-                continue
-            begin, end, entry, known = piece
-            shift = shifts[begin], shifts[end]
-            written = known.get(shift)
-            if written is None:
-                if len(known) >= _MOST:
-                    known.clear()
-                written = known[shift] = _written(entry, *shift)
-            found.append(written)
-        self._last = shifts, b"".join(found)
+        by = list(
+            zip(map(shifts.__getitem__, self._begins), map(shifts.__getitem__, self._ends), strict=True)
+        )
+        found = list(map(dict.get, self._ways, by))
+        if None in found:
+            found = list(map(_known, self._ways, self._entries, by))
+        pieces = self._pieces.copy()
+        pieces[1::2] = found  # type: ignore[assignment] # none is None
+        self._last = shifts, b"".join(pieces)
         return self._last[1]
 
 
+def _known(ways: dict[tuple[int, int], bytes], entry: _Entry, shift: tuple[int, int]) -> bytes:
+    written = ways.get(shift)
+    if written is None:
+        if len(ways) >= _MOST:
+            ways.clear()
+        written = ways[shift] = _written(entry, *shift)
+    return written
+
+
+@lru_cache(maxsize=1024)  # of a table that repeats itself most are the same
 def _entry(written: bytes) -> _Entry:
     kind, count = (written[0] >> 3) & 15, (written[0] & 7) + 1
     if kind < _ONE_LINE:
