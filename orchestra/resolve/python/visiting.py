@@ -289,5 +289,6 @@ def _short(entity: Any, error: TypeError) -> str:
 
 
 def _span(entity: Any, run: Resolution, around: Place | None = None) -> Span:
-    place: Place | None = getattr(entity, "__dict__", {}).get("_place", around)
+    own = getattr(entity, "__dict__", {})
+    place: Place | None = own.get("_place", around) if own.get("_as_given") is None else entity._place
     return place.span if place is not None else point(displayed(run.context.file or ""))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.compat.explanation import told
-from orchestra.compat.launch.action import ModelledAction
+from orchestra.compat.launch.plain_action import PlainAction, is_text, text_at
 from orchestra.compat.text import Sub, normalized, template
 from orchestra.compat.values import optional, written
 from orchestra.compat.wrong import WrongRuntime, WrongType
@@ -19,19 +19,23 @@ if TYPE_CHECKING:
     from orchestra.compat.launch.launch_context import LaunchContext
     from orchestra.compat.launch.launch_description_entity import LaunchDescriptionEntity
     from orchestra.compat.launch.substitution import Substitution
+    from orchestra.compat.place import Arguments
     from orchestra.description.entity import Action as Model
 
 
+_TEXTS: Final = frozenset({"name", "default_value", "description"})
+_OPTIONAL: Final = frozenset({"default_value", "description", "choices"})
 _ONE_TEXT: Final = "the choices of a launch argument are a list of texts, this is {!r}"
 
 
-class DeclareLaunchArgument(ModelledAction):
+class DeclareLaunchArgument(PlainAction):
     """Declare an argument of the launch file; a value that somebody has set before is kept.
 
     Raises `RuntimeError` for no choices, and for a default that is none of them.
     """
 
     _role = "declaration"
+    _plain = (1, ("name", "default_value", "description", "choices"))
 
     def __init__(
         self,
@@ -92,7 +96,38 @@ class DeclareLaunchArgument(ModelledAction):
             raise RuntimeError(f"the launch argument '{self.name}' has neither a value nor a default")
         return None
 
-    def _to_model(self, common: Mapping[str, Any]) -> Model:
+    def _is_plain(self, given: dict[str, Any]) -> bool:
+        if type(given.get("name")) is not str:
+            return False
+        for name, value in given.items():
+            if type(value) is str and name in _TEXTS:
+                continue
+            if value is None and name in _OPTIONAL:
+                continue
+            if name == "default_value" and is_text(given, name):
+                continue
+            if name != "choices" or type(value) is not list or not value or {*map(type, value)} != {str}:
+                return False
+            given[name] = value.copy()
+            default = given.get("default_value")
+            if type(default) is str and default not in value:
+                return False
+        return True
+
+    def _read(self, given: dict[str, Any], call: Arguments) -> tuple[type[Model], dict[str, Any]]:
+        fields: dict[str, Any] = {"name": text_at(given["name"], call, "name")}
+        default, description = given.get("default_value"), given.get("description")
+        if default is not None:
+            fields["default"] = text_at(default, call, "default_value")
+        if description is not None:
+            fields["description"] = text_at(description, call, "description")
+        listed = given.get("choices")
+        if listed is not None:
+            choices = [text_at(choice, call, "choices", index) for index, choice in enumerate(listed)]
+            fields["choices"] = tuple(choices)
+        return Arg, fields
+
+    def _made(self, common: Mapping[str, Any]) -> Model:
         place = self._place
         choices = None
         if self.choices is not None:

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.compat.building import made_of, models_of
 from orchestra.compat.extensions import extension_fields, taken
-from orchestra.compat.launch.action import ModelledAction
 from orchestra.compat.launch.event_handler import is_of_ours
+from orchestra.compat.launch.plain_action import PlainAction, text_at
 from orchestra.compat.values import pairs, scalar
 from orchestra.description.actions.group import Group
 
@@ -17,17 +17,19 @@ if TYPE_CHECKING:
 
     from orchestra.compat.launch.launch_context import LaunchContext
     from orchestra.compat.launch.launch_description_entity import LaunchDescriptionEntity
+    from orchestra.compat.place import Arguments
     from orchestra.compat.text import Sub
     from orchestra.description.entity import Action as Model
 
 
-class GroupAction(ModelledAction):
+class GroupAction(PlainAction):
     """Visit actions; unless told otherwise, what they set ends with the group.
 
     Without `forwarding` what is set outside is not seen inside, but for `launch_configurations`. With `for_each`, a key
     of Orchestra's own, they are visited once per value: `{"robot": ["robot1", "robot2"]}`.
     """
 
+    _plain = (1, ("actions", "scoped", "forwarding"))
     _more_keywords = ("for_each",)
 
     def __init__(
@@ -72,7 +74,22 @@ class GroupAction(ModelledAction):
     def _is_as_described(self) -> bool:
         return super()._is_as_described() and is_of_ours(self, "get_sub_entities")
 
-    def _to_model(self, common: Mapping[str, Any]) -> Model:
+    def _is_plain(self, given: dict[str, Any]) -> bool:
+        return (
+            type(given.get("actions")) is list
+            and given.keys() <= _PLAIN
+            and type(given.get("scoped", True)) is type(given.get("forwarding", True)) is bool
+        )
+
+    def _read(self, given: dict[str, Any], call: Arguments) -> tuple[type[Model], dict[str, Any]]:
+        fields: dict[str, Any] = {"children": models_of(given["actions"], call.place)}
+        if given.get("scoped") is False:
+            fields["scoped"] = text_at("false", call)
+        if given.get("forwarding") is False:
+            fields["forwarding"] = text_at("false", call)
+        return Group, fields
+
+    def _made(self, common: Mapping[str, Any]) -> Model:
         span = self._place.span
         if isinstance(self.__actions, Iterator):
             self.__actions = list(self.__actions)
@@ -86,3 +103,6 @@ class GroupAction(ModelledAction):
             return made_of(Group, self._place, fields, common)
         more = extension_fields(Group, self.__extensions, self._place, children=())
         return Group.at(span, **fields, **more, **common)
+
+
+_PLAIN: Final = frozenset({"actions", "scoped", "forwarding"})

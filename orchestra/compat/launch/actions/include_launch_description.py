@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Final, cast
 
 from orchestra.compat.building import models_of, unchecked
 from orchestra.compat.extensions import INCLUDED, extension_fields, taken
-from orchestra.compat.launch.action import ModelledAction
 from orchestra.compat.launch.actions.set_launch_configuration import SetLaunchConfiguration
 from orchestra.compat.launch.launch_context import LaunchContext
 from orchestra.compat.launch.launch_description_entity import LaunchDescriptionEntity
@@ -16,12 +15,16 @@ from orchestra.compat.launch.launch_description_source import LaunchDescriptionS
 from orchestra.compat.launch.launch_description_sources.any_launch_description_source import (
     AnyLaunchDescriptionSource,
 )
+from orchestra.compat.launch.plain_action import PlainAction, text_at
+from orchestra.compat.launch.substitution import Substitution
 from orchestra.compat.launch.substitutions.substitution_failure import SubstitutionFailure
-from orchestra.compat.place import here
+from orchestra.compat.launch_ros.plain_texts import entity, standing_at
+from orchestra.compat.place import Arguments, Key, ValueOf, here
 from orchestra.compat.text import normalized
 from orchestra.compat.values import pairs
 from orchestra.compat.wrong import WrongType
 from orchestra.description.actions.include import Include
+from orchestra.description.parts import Pair
 from orchestra.location import is_file
 
 if TYPE_CHECKING:
@@ -31,7 +34,7 @@ if TYPE_CHECKING:
     from orchestra.description.entity import Action as Model
 
 
-class IncludeLaunchDescription(ModelledAction):
+class IncludeLaunchDescription(PlainAction):
     """Visit a launch description: a source, or the path of a launch file of any kind.
 
     `launch_arguments` are pairs of name and value, or a mapping; they are set before, and stay. Orchestra's own keys
@@ -39,6 +42,7 @@ class IncludeLaunchDescription(ModelledAction):
     """
 
     _role = "include"
+    _plain = (1, ("launch_description_source", "launch_arguments"))
     _more_keywords = INCLUDED
 
     def __init__(
@@ -112,11 +116,52 @@ class IncludeLaunchDescription(ModelledAction):
         return [*settings, self.__launch_description_source.get_launch_description(context)]
 
     def _is_as_described(self) -> bool:
-        return super()._is_as_described() and (
-            self.__launch_description_source._reads_file or bool(self.__extensions)
-        )
+        if not super()._is_as_described():
+            return False
+        if self._as_given is not None:
+            return True
+        return self.__launch_description_source._reads_file or bool(self.__extensions)
+
+    def _is_plain(self, given: dict[str, Any]) -> bool:
+        source = given.get("launch_description_source")
+        if not (
+            isinstance(source, LaunchDescriptionSource) and source._reads_file and given.keys() <= _PLAIN
+        ):
+            return False
+        arguments: Any = given.get("launch_arguments")
+        if type(arguments) not in _PAIRS:
+            return arguments is None
+        given["launch_arguments"] = pairs = tuple(arguments)
+        return all(map(_is_pair, pairs))
+
+    def _read(self, given: dict[str, Any], call: Arguments) -> tuple[type[Model], dict[str, Any]]:
+        file = given["launch_description_source"]._file()
+        arguments = given.get("launch_arguments")
+        if not arguments:
+            return Include, {"file": file}
+        # Names and values apart: a name has the number of its value.
+        names, values, beside = Arguments(call.place), Arguments(call.place), standing_at(call, _ARGUMENTS)
+        given_to_it = [
+            entity(
+                Pair,
+                {
+                    "name": text_at(name, names, "launch_arguments", Key(index)),
+                    "value": text_at(value, values, "launch_arguments", ValueOf(index)),
+                },
+                beside,
+            )
+            for index, (name, value) in enumerate(arguments)
+        ]
+        return Include, {"file": file, "arg": tuple(given_to_it)}
 
     def _to_model(self, common: Mapping[str, Any]) -> Model:
+        model = super()._to_model(common)
+        given = self._as_given
+        if given is not None:
+            cast("Include", model).read_as(given["launch_description_source"]._language)
+        return model
+
+    def _made(self, common: Mapping[str, Any]) -> Model:
         span = self._place.span
         try:
             arguments = pairs(self.launch_arguments, self._place.at("launch_arguments"))
@@ -141,6 +186,23 @@ class IncludeLaunchDescription(ModelledAction):
         if self.condition is None:
             raise error
         return OpaqueAction.at(self._place.span, **{**common, "target": _Refused(error)})
+
+
+def _is_pair(item: Any) -> bool:
+    """Return whether something is a name and a value that are texts, substitutions, or lists of both."""
+    return type(item) is tuple and len(item) == _PAIR and all(map(_is_text, item))
+
+
+def _is_text(value: Any) -> bool:
+    return isinstance(value, str | Substitution) or (
+        type(value) is list and all(isinstance(item, str | Substitution) for item in value)
+    )
+
+
+_ARGUMENTS: Final = ("launch_arguments",)
+_PAIR: Final = 2
+_PAIRS: Final = frozenset({list, tuple, type({}.items())})
+_PLAIN: Final = frozenset({"launch_description_source", "launch_arguments"})
 
 
 def _check(arguments: Any) -> None:

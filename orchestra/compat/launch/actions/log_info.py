@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from orchestra.compat.launch.action import ModelledAction
+from orchestra.compat.launch.plain_action import PlainAction, text_at
 from orchestra.compat.text import normalized, template
 from orchestra.description.actions.log import Log
 
@@ -12,12 +12,15 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from orchestra.compat.launch.substitution import Substitution
+    from orchestra.compat.place import Arguments
     from orchestra.compat.text import Sub
     from orchestra.description.entity import Action as Model
 
 
-class LogInfo(ModelledAction):
+class LogInfo(PlainAction):
     """Print a message when the action is visited."""
+
+    _plain = (0, ("msg",))
 
     def __init__(self, *, msg: Sub, **kwargs: Any) -> None:
         super().__init__(**kwargs)
@@ -28,6 +31,9 @@ class LogInfo(ModelledAction):
         """The message."""
         return self.__msg
 
-    def _to_model(self, common: Mapping[str, Any]) -> Model:
+    def _read(self, given: dict[str, Any], call: Arguments) -> tuple[type[Model], dict[str, Any]]:
+        return Log, {"message": text_at(given["msg"], call, "msg")}
+
+    def _made(self, common: Mapping[str, Any]) -> Model:
         message = template(self.msg, self._place.at("msg"))
         return Log.at(self._place.span, message=message, **common)

@@ -5,18 +5,19 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from orchestra.compat.building import made_of
-from orchestra.compat.launch.action import ModelledAction
+from orchestra.compat.launch.plain_action import PlainAction, text_at
 from orchestra.compat.text import normalized, template
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from orchestra.compat.launch.substitution import Substitution
+    from orchestra.compat.place import Arguments
     from orchestra.compat.text import Sub
     from orchestra.description.entity import Action as Model
 
 
-class NamedAction(ModelledAction):
+class NamedAction(PlainAction):
     """An action on what has a name; a subclass says in which model."""
 
     _model: ClassVar[type[Model]]
@@ -30,8 +31,11 @@ class NamedAction(ModelledAction):
         """The name."""
         return self.__name
 
-    def _to_model(self, common: Mapping[str, Any]) -> Model:
+    def _made(self, common: Mapping[str, Any]) -> Model:
         return made_of(self._model, self._place, self._fields(), common)
+
+    def _read(self, given: dict[str, Any], call: Arguments) -> tuple[type[Model], dict[str, Any]]:
+        return self._model, {name: text_at(value, call, name) for name, value in given.items()}
 
     def _fields(self) -> dict[str, Any]:
         """Return the fields of the model that it alone has."""

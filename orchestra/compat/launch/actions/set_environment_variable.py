@@ -10,3 +10,4 @@ class SetEnvironmentVariable(SettingAction):
     """Set an environment variable for what follows in this scope."""
 
     _model = SetEnv
+    _plain = (2, ("name", "value"))

@@ -10,3 +10,4 @@ class SetLaunchConfiguration(SettingAction):
     """Set a launch configuration for what follows in this scope."""
 
     _model = Let
+    _plain = (2, ("name", "value"))

@@ -10,3 +10,4 @@ class UnsetEnvironmentVariable(NamedAction):
     """Remove an environment variable, where it is set, for what follows in this scope."""
 
     _model = UnsetEnv
+    _plain = (1, ("name",))

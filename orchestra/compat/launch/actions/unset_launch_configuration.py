@@ -10,3 +10,4 @@ class UnsetLaunchConfiguration(NamedAction):
     """Remove a launch configuration, where it is set, for what follows in this scope."""
 
     _model = UnsetLet
+    _plain = (1, ("name",))

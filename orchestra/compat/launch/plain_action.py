@@ -1,0 +1,123 @@
+"""Actions that keep their arguments as they are given until somebody asks for more than their model.
+
+Launch files have hundreds of them, and what their constructors keep in upstream's forms is seldom looked at.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, ClassVar
+
+from orchestra.compat.building import unchecked
+from orchestra.compat.launch.action import ModelledAction
+from orchestra.compat.launch.substitution import Substitution
+from orchestra.compat.launch_ros.plain_texts import UnusualError, entity, plain_text, standing_at
+from orchestra.compat.place import Arguments, Way, argument
+from orchestra.compat.refusing import standing
+from orchestra.compat.text import template
+from orchestra.description.text import matched_words
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from orchestra.description.entity import Action as Model
+    from orchestra.description.text import Template
+
+
+class PlainAction(ModelledAction):
+    """Such an action. A class that is one says in `_plain` which arguments it has: in order, then those with names."""
+
+    # The number of those that may come without their names, and of each the name.
+    _plain: ClassVar[tuple[int, tuple[str, ...]]]
+    _as_given: Any = None
+
+    def _keep(self, arguments: tuple[Any, ...], keywords: dict[str, Any]) -> bool:
+        plain = vars(type(self)).get("_plain")
+        if plain is None or len(arguments) > plain[0]:
+            return False
+        given = dict(zip(plain[1], arguments, strict=False))
+        condition = None
+        if keywords:
+            if not given.keys().isdisjoint(keywords):
+                return False
+            given |= keywords
+            condition = given.pop("condition", None)
+        if not self._is_plain(given):
+            return False
+        self._Action__condition = condition
+        self._as_given = given
+        return True
+
+    def _is_plain(self, given: dict[str, Any]) -> bool:
+        """Return whether the constructor has nothing to say about these arguments; what may change is copied.
+
+        They are those of the class, and all of them, unless a subclass says so.
+        """
+        if len(given) != len(self._plain[1]):
+            return False
+        try:
+            for name in self._plain[1]:
+                if type(given[name]) is not str and not is_text(given, name):
+                    return False
+        except KeyError:
+            return False
+        return True
+
+    def _make(self, given: Any) -> None:
+        own = vars(self).copy()
+        with standing(self._place):
+            self.__init__(**given)  # type: ignore[misc] # with the keywords of the subclass
+        vars(self).update(own)  # what users have set since stays
+
+    def _to_model(self, common: Mapping[str, Any]) -> Model:
+        given = self._as_given
+        if given is not None:
+            call = Arguments(self._place)
+            condition = {} if len(common) == 1 else unchecked(common)
+            if condition is not None and len(vars(self)) == _OF_PLAIN:
+                kind, fields = self._read(given, call)
+                made: Model = entity(
+                    kind,
+                    {**kind._unwritten(), **fields, **condition},
+                    standing_at(call, (), common["origin"]),
+                )
+                return made
+            self._as_given = None
+            self._make(given)  # an attribute has been set, or the condition is for the validator
+        return self._made(common)
+
+    def _read(self, given: dict[str, Any], call: Arguments) -> tuple[type[Model], dict[str, Any]]:
+        """Return the model for arguments that have been kept, and its fields that are written."""
+        raise NotImplementedError
+
+    def _made(self, common: Mapping[str, Any]) -> Model:
+        """Return the model of what the constructor has made."""
+        raise NotImplementedError
+
+
+def is_text(given: dict[str, Any], name: str) -> bool:
+    """Return whether an argument is a text, a substitution, or several of both; a list is copied."""
+    value = given[name]
+    kind = type(value)
+    if kind is list or kind is tuple:
+        for item in value:
+            if type(item) is not str and not isinstance(item, Substitution):
+                return False
+        given[name] = [*value]
+        return True
+    return kind is str or isinstance(value, Substitution)
+
+
+def text_at(value: Any, call: Arguments, *path: Way) -> Template:
+    """Return the text of an argument, or of what it holds."""
+    if type(value) is str and "$" not in value and "\\" not in value:
+        return matched_words(value, False, call, path)  # type: ignore[arg-type] # its groups are paths
+    if type(value) is list and len(value) == 1:
+        value = value[0]
+    try:
+        return plain_text(value, call, path)
+    except UnusualError:
+        return template(value, argument(call.place, path))
+
+
+# What an action has as long as it is plain: its arguments, its condition, where it was called, and its place.
+_OF_PLAIN = 4
