@@ -71,7 +71,8 @@ def _lack(word: Value, run: Resolution) -> _Lack | None:
     """Return what is to be told of the file that a word names, None where there is one or it may come."""
     name = _NAMED.match(word.text)
     path = word.text[name.end() :] if name is not None else word.text
-    missing = settled_path(replace(word, text=path), run) if _is_path(path) else None
+    named = word if name is None else replace(word, text=path)
+    missing = settled_path(named, run) if _is_path(path) else None
     if missing is None:
         return None
     raw = word.text if word.raw is None else word.raw
@@ -92,10 +93,17 @@ def _lack(word: Value, run: Resolution) -> _Lack | None:
 
 def _is_path(text: str) -> bool:
     """Return whether a text looks like the path of a file; where names in it have blanks, their folders are there."""
-    if not Path(text).suffix or any(sign in text for sign in "*?<>|{}\n:;,"):
+    if not _has_ending(text) or any(sign in text for sign in "*?<>|{}\n:;,"):
         return False
     slash = text.find("/", text.rfind(" ") + 1)
     return " " not in text or (text.startswith("/") and slash > 0 and exists(Path(text[:slash])))
+
+
+def _has_ending(text: str) -> bool:
+    name = text.rpartition("/")[2]
+    if not name or name.endswith("."):
+        return bool(Path(text).suffix)
+    return name.rfind(".") > 0
 
 
 def _is_sure(name: str, near: str) -> bool:

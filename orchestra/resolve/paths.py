@@ -72,12 +72,25 @@ def may_come(value: Value, run: Resolution) -> bool:
 
 def settled_path(value: Value, run: Resolution) -> Path | None:
     """Return the path of a file that is not there and should be: beside the launch file, or in a package."""
+    if _is_there(value.text, run):
+        return None
     folder, written = folder_of(run.context.file), _expanded(value.text)
     prefixes = run.scope.environment.get("AMENT_PREFIX_PATH", "").split(os.pathsep)
     settled = (folder, *(Path(prefix) for prefix in prefixes if prefix))
     path = Path(os.path.normpath(folder / written))
     known = any(map(path.is_relative_to, settled))
     return path if known and not exists(path) and _found(str(folder), value.text) is None else None
+
+
+def _is_there(written: str, run: Resolution) -> bool:
+    """Return whether a file is there as far as no path has to be put together, which is slow, to find that out."""
+    folder = _start_of(run.context.file)
+    if written.startswith("/"):
+        prefixes = (folder, *run.scope.environment.get("AMENT_PREFIX_PATH", "").split(os.pathsep))
+        plain = any(prefix and written.startswith(f"{prefix}/") for prefix in prefixes)
+    else:
+        plain = not written.startswith("~")
+    return plain and ".." not in written and _found(folder, written) is not None
 
 
 def file_below(
