@@ -14,7 +14,7 @@ from orchestra.compat.calls import CallSubstitution
 from orchestra.compat.launch.substitutions.launch_configuration import LaunchConfiguration
 from orchestra.compat.launch.substitutions.text_substitution import TextSubstitution
 from orchestra.compat.parsed import ParsedSubstitution
-from orchestra.compat.place import Arguments, argument
+from orchestra.compat.place import Instructions, argument
 from orchestra.compat.text import template
 from orchestra.description.calculated import DIGIT, Calculated
 from orchestra.description.substitutions import Part, Shape
@@ -25,6 +25,7 @@ from orchestra.description.text import (
     new_words,
 )
 from orchestra.description.written import called, escaped
+from orchestra.location import Matched
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -46,13 +47,36 @@ _known: Final[set[tuple[type[Any], Any]]] = set()
 _parameters: Final[dict[str, tuple[str, ...]]] = {"var": LaunchConfiguration._parameters}
 
 
+# Classes of arguments that are kept as they are given.
+plain: Final[set[type[Any]]] = {str, TextSubstitution, LaunchConfiguration}
+
+
 class Calculating(ParsedSubstitution):
     """A substitution whose result depends on nothing but its arguments."""
 
+    # How many arguments are kept as they are given, None: any number of them.
+    _count: int | None = 1
+
+    def _keep(self, arguments: tuple[Any, ...], keywords: dict[str, Any]) -> bool:
+        if keywords or len(arguments) != (len(arguments) if self._count is None else self._count):
+            return False
+        given: list[Any] = []
+        for items in arguments:
+            if type(items) is list:
+                if not plain.issuperset(map(type, items)):
+                    return False
+                given.append(items.copy())
+            elif type(items) in plain:
+                given.append(items)
+            else:
+                return False
+        self._as_given = tuple(given), keywords
+        return True
+
     def _whole(self) -> Template | None:
         pieces: list[str] = []
-        places: list[Place] = []
-        if not _is_written(self, pieces, places):
+        made: list[Any] = []
+        if not _is_written(self, pieces, made):
             return super()._whole()
         text = "".join(pieces)
         if len(text) > _LONGEST or not text.isascii():
@@ -63,32 +87,34 @@ class Calculating(ParsedSubstitution):
             raw = _written(skeleton) % numbers
         else:
             skeleton, raw = text, _written(text)
-        made = _Calculation(text, skeleton, numbers, places)
-        return matched_template(raw, False, Arguments(self._place), (), made)  # type: ignore[arg-type] # its groups are paths
+        return matched_template(raw, False, _Made(self), 0, _Calculation(text, skeleton, numbers, made))
 
 
-def _is_written(call: Calculating, pieces: list[str], places: list[Place]) -> bool:
-    """Write a call with marks, and where it was made; false where that cannot be said of all that it is made of."""
+def _is_written(call: Calculating, pieces: list[str], made: list[Any]) -> bool:
+    """Write a call with marks, and what has places; false where that cannot be said of all that it is made of."""
     kind: Any = type(call)
     if (kind, kind.perform) not in _known and not _is_known(kind):
         return False
     pieces += (_BEGIN, call._name)
-    places.append(call._place)
-    for items in call._arguments():
+    made.append(call)
+    given = call._as_given
+    for items in call._arguments() if given is None else given[0]:
         pieces.append(_ARGUMENT)
         item: Any
-        for item in items:
+        for item in items if type(items) is list else (items,):
             kind = type(item)
-            if kind is TextSubstitution or kind is LaunchConfiguration:
-                text = item.text if kind is TextSubstitution else item._alone()
-                if text is None or not text.isprintable():
+            if kind is LaunchConfiguration:
+                name = item._alone()
+                if name is None or not name.isprintable():
                     return False
-                if kind is TextSubstitution:
-                    pieces += (text, _BEHIND)
-                else:
-                    pieces += (_VARIABLE, text, _BEHIND_VARIABLE)
-                    places.append(item._place)
-            elif not isinstance(item, Calculating) or not _is_written(item, pieces, places):
+                pieces += (_VARIABLE, name, _BEHIND_VARIABLE)
+                made.append(item)
+            elif kind is str or kind is TextSubstitution:
+                text = item if kind is str else item.text
+                if not text.isprintable():
+                    return False
+                pieces += (text, _BEHIND)
+            elif not isinstance(item, Calculating) or not _is_written(item, pieces, made):
                 return False
     pieces.append(_END)
     return True
@@ -107,18 +133,37 @@ def _is_known(kind: Any) -> bool:
     return True
 
 
+class _Made(Matched):
+    """What a substitution alone comes to stands where that was made."""
+
+    __slots__ = ("_made",)
+
+    def __init__(self, made: Calculating) -> None:
+        self._made = made
+
+    @property
+    def whole(self) -> Instructions:  # type: ignore[override] # nobody sets it
+        """The text."""
+        return Instructions(self._made._place._code)
+
+    def span(self, group: int) -> Span:
+        """Return the place."""
+        del group
+        return self._made._place.span
+
+
 class _Calculation(Calculated):
-    """What such a substitution is made of, and where each part of it was made, in order."""
+    """What such a substitution is made of, and what was made for it at a place, in order."""
 
-    __slots__ = ("_places",)
+    __slots__ = ("_made",)
 
-    def __init__(self, text: str, skeleton: str, numbers: tuple[str, ...], places: Sequence[Place]) -> None:
+    def __init__(self, text: str, skeleton: str, numbers: tuple[str, ...], made: Sequence[Any]) -> None:
         self.text = text
         self.skeleton = skeleton
         self.numbers = numbers
         self.formula = None
         self.names = None
-        self._places = places
+        self._made = made
 
     @staticmethod
     def shape_of(skeleton: str) -> Shape:
@@ -129,7 +174,7 @@ class _Calculation(Calculated):
         """Return the call."""
         del whole
         (call,) = self.shape_of(self.text).parts
-        return (_call(call, iter(self._places)),)
+        return (_call(call, iter([item._place for item in self._made])),)
 
 
 @lru_cache(maxsize=256)

@@ -9,6 +9,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from orchestra.compat.calculating import Calculating
+from orchestra.compat.launch.condition import Condition
+from orchestra.compat.launch.conditions import IfCondition, UnlessCondition
 from orchestra.compat.launch.substitutions import (
     AllSubstitution,
     AndSubstitution,
@@ -24,15 +26,19 @@ from orchestra.compat.launch.substitutions import (
     TextSubstitution,
 )
 from orchestra.compat.parsed import ParsedSubstitution
+from orchestra.compat.refusing import collecting
 from orchestra.description.calculated import Calculated
 from orchestra.description.text import MatchedTemplate
+from orchestra.errors import Problems
+from orchestra.location import point
 from tests.compat.contexts import loading
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Callable, Iterator
 
     from orchestra.compat.launch.launch_context import LaunchContext
 
+_SPAN = point("here")
 _TEXTS = (
     "'",
     "' == 'sim'",
@@ -139,6 +145,65 @@ def test_plain_ones_are_known_by_their_skeleton(made: Any) -> None:
 )
 def test_others_are_taken_apart(made: Any) -> None:
     assert not _calculated(made())
+
+
+_SIDES = (
+    "sim",
+    LaunchConfiguration("mode"),
+    ["a", LaunchConfiguration("mode")],
+    NotSubstitution("true"),
+    TextSubstitution(text="x"),
+)
+_MADE: tuple[Callable[[Any, Any], Any], ...] = (
+    lambda one, _: PythonExpression(one),
+    lambda one, _: NotSubstitution(one),
+    AndSubstitution,
+    OrSubstitution,
+    EqualsSubstitution,
+    NotEqualsSubstitution,
+    AnySubstitution,
+    AllSubstitution,
+    lambda one, other: IfElseSubstitution(one, other, "no"),
+    lambda one, other: IfCondition(AndSubstitution(one, other)),
+    lambda one, _: UnlessCondition(NotSubstitution(one)),
+)
+
+
+@pytest.mark.parametrize("make", _MADE)
+@pytest.mark.parametrize("one", _SIDES)
+@pytest.mark.parametrize("other", _SIDES)
+def test_what_keeps_its_arguments_is_what_the_constructor_makes(make: Any, one: Any, other: Any) -> None:
+    with collecting(Problems(), ()):
+        made, kept = [make(one, other) for _ in range(2)]
+    told = made.describe()  # it is constructed, at the latest now
+    assert made._as_given is None
+    is_kept = kept._as_given is not None
+    assert is_kept != (
+        type(one) is type(other) is str and make in (EqualsSubstitution, NotEqualsSubstitution)
+    )
+    if isinstance(made, Condition):
+        assert kept._fields(_SPAN) == made._fields(_SPAN)
+    else:
+        assert kept._whole() == made._whole()
+    assert kept._place.span == made._place.span
+    assert (kept._as_given is not None) is is_kept
+    assert kept.describe() == told
+    assert kept._as_given is None
+
+
+def test_a_list_that_is_kept_is_one_of_its_own() -> None:
+    given = ["1", " < 2"]
+    with collecting(Problems(), ()):
+        _, kept = [PythonExpression(given) for _ in range(2)]
+    given.append("0")
+    assert kept._whole().raw == "$(eval '1 < 2')"
+    assert [item.text for item in kept.expression] == ["1", " < 2"]
+
+
+def test_a_subclass_of_a_launch_file_is_constructed() -> None:
+    with collecting(Problems(), ()):
+        made = [_Shouting("1") for _ in range(3)]
+    assert all(item._as_given is None for item in made)
 
 
 def test_what_performs_a_class_may_be_replaced(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Final
 
+from orchestra.compat.calls import CallSubstitution
 from orchestra.compat.described import described
 from orchestra.compat.launch.condition import Condition
 from orchestra.compat.place import IN_CONSTRUCTOR, here
@@ -26,6 +27,12 @@ class IfCondition(Condition):
         self._place = here(self, IN_CONSTRUCTOR)
         self._predicate = self._predicate_func
 
+    def _keep(self, arguments: tuple[Any, ...], keywords: dict[str, Any]) -> bool:
+        if keywords or len(arguments) != 1 or not isinstance(arguments[0], CallSubstitution):
+            return False
+        self._as_given = arguments, keywords
+        return True
+
     def describe(self) -> str:
         """Return the text and what becomes of it."""
         return f"{type(self).__name__}({described(self.__expression)})"
@@ -43,7 +50,8 @@ class IfCondition(Condition):
         kind = type(self)
         if kind.evaluate is not _evaluate or kind._predicate_func is not _judge:  # of a user's
             return super()._fields(span)
-        expression = self.__expression
+        given = self._as_given
+        expression = self.__expression if given is None else given[0]
         whole = expression[0]._whole() if len(expression) == 1 else None
         if whole is None:
             whole = template(expression, self._place.at("predicate_expression"))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Self
 
-from orchestra.compat.calculating import Calculating
+from orchestra.compat.calculating import Calculating, plain
 from orchestra.compat.described import described
 from orchestra.compat.launch.substitutions.two_sided import TwoSided
 from orchestra.compat.text import normalized
@@ -55,6 +55,8 @@ class OrSubstitution(TwoSided):
 class _OfMany(Calculating):
     """Any number of values, which are all evaluated; the front ends hand them in as `args`."""
 
+    _count = None
+
     def __init__(self, *values: Sub, args: Sequence[Sub] = ()) -> None:
         super().__init__()
         self.__args = [normalized(value) for value in (*values, *args)]
@@ -90,3 +92,6 @@ class AllSubstitution(_OfMany):
     """True where every value is; true without values."""
 
     _name = "all"
+
+
+plain.update((NotSubstitution, AndSubstitution, OrSubstitution, AnySubstitution, AllSubstitution))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from orchestra.compat.calculating import plain
 from orchestra.compat.launch.substitutions.two_sided import TwoSided
 from orchestra.compat.launch.utilities.type_utils import is_substitution
 from orchestra.compat.place import here
@@ -27,6 +28,14 @@ class EqualsSubstitution(TwoSided):
             from orchestra.compat.constant_sides import tell_constant_sides  # noqa: PLC0415 - few compare two texts
 
             tell_constant_sides(here(self), type(self).__name__)
+
+    def _keep(self, arguments: tuple[Any, ...], keywords: dict[str, Any]) -> bool:
+        if all(type(side) is str for side in arguments):
+            return False  # of which there may be something to tell
+        return super()._keep(arguments, keywords)
+
+
+plain.add(EqualsSubstitution)
 
 
 def _side(value: Any) -> Sub:

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-from orchestra.compat.calculating import Calculating
+from orchestra.compat.calculating import Calculating, plain
 from orchestra.compat.described import described
 from orchestra.compat.text import normalized
 
@@ -23,6 +23,7 @@ class IfElseSubstitution(Calculating):
 
     _name = "if"
     _parameters = ("condition", "if_value", "else_value")
+    _count = 3
 
     def __init__(self, condition: Sub, if_value: Sub = "", else_value: Sub = "") -> None:
         super().__init__()
@@ -31,6 +32,11 @@ class IfElseSubstitution(Calculating):
         self.__condition = normalized(condition)
         self.__if_value = normalized(if_value)
         self.__else_value = normalized(else_value)
+
+    def _keep(self, arguments: tuple[Any, ...], keywords: dict[str, Any]) -> bool:
+        return "" not in [item for item in arguments if type(item) is str] and super()._keep(
+            arguments, keywords
+        )
 
     @property
     def condition(self) -> list[Substitution]:
@@ -53,3 +59,6 @@ class IfElseSubstitution(Calculating):
 
     def _arguments(self) -> Sequence[Sequence[Substitution]]:
         return (self.condition, self.if_value, self.else_value)
+
+
+plain.add(IfElseSubstitution)

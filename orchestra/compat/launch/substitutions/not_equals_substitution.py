@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from orchestra.compat.calculating import plain
 from orchestra.compat.launch.substitutions.equals_substitution import EqualsSubstitution
 
 
@@ -9,3 +10,6 @@ class NotEqualsSubstitution(EqualsSubstitution):
     """True where `EqualsSubstitution` is false."""
 
     _name = "not-equals"
+
+
+plain.add(NotEqualsSubstitution)

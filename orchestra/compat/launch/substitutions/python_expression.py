@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Self
 
-from orchestra.compat.calculating import Calculating
+from orchestra.compat.calculating import Calculating, plain
 from orchestra.compat.described import described
 from orchestra.compat.expressions import visible
 from orchestra.compat.launch.utilities.perform_substitutions_impl import perform_substitutions
@@ -73,6 +73,9 @@ class PythonExpression(Calculating):
     def _listed(self) -> list[Substitution]:
         """Return the modules as one text, with commas."""
         return normalized(_with_commas(self.python_modules))
+
+
+plain.add(PythonExpression)
 
 
 def _with_commas(modules: Iterable[Substitution]) -> Iterable[str | Substitution]:

@@ -19,6 +19,7 @@ class TwoSided(Calculating):
     """The values on both sides; both are evaluated."""
 
     _parameters = ("left", "right")
+    _count = 2
 
     def __init__(self, left: Sub, right: Sub) -> None:
         super().__init__()
