@@ -5,12 +5,14 @@ from __future__ import annotations
 import re
 from functools import cache
 from itertools import compress, islice
-from types import CodeType, FunctionType
+from types import FunctionType
 from typing import TYPE_CHECKING, Final
+
+from orchestra.compat.signs import codes_in, every_code
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
-    from types import ModuleType
+    from types import CodeType, ModuleType
 
 PROCESSES: Final = frozenset(
     {"ComposableNodeContainer", "ExecuteLocal", "ExecuteProcess", "LifecycleNode", "Node"}
@@ -35,14 +37,14 @@ def has_idle_actions(module: ModuleType, source: bytes) -> bool:
         if isinstance(item, type) and item.__module__ == module.__name__
     ]
     methods = _codes(value for item in own for value in vars(item).values())
-    every = (code for outer in (*codes, *methods) for code in _with_inner(outer))
+    every = (code for outer in (*codes, *methods) for code in every_code(outer))
     return any(_keeps_action(code, idle.get(id(code)), lines) for code in every)
 
 
 def may_have_idle_actions(code: CodeType, source: bytes) -> bool:
     """Return whether that may be so of whatever the code of a file comes to."""
     lines: list[bytes] = []
-    for inner in _with_inner(code):
+    for inner in codes_in(code).every:
         idle = _idle_names(inner)
         if idle:
             lines = lines or source.splitlines()
@@ -53,14 +55,6 @@ def may_have_idle_actions(code: CodeType, source: bytes) -> bool:
 
 def _codes(values: Iterable[object]) -> Iterator[CodeType]:
     return (value.__code__ for value in values if type(value) is FunctionType)
-
-
-def _with_inner(code: CodeType) -> Iterator[CodeType]:
-    """Yield a code, and those of the functions and classes inside of it."""
-    yield code
-    for item in code.co_consts:
-        if type(item) is CodeType:
-            yield from _with_inner(item)
 
 
 def _keeps_action(code: CodeType, known: set[int] | None, lines: Sequence[bytes]) -> bool:

@@ -4,16 +4,18 @@ from __future__ import annotations
 
 import re
 from functools import cache
+from operator import ne
 from types import CodeType, FunctionType
 from typing import TYPE_CHECKING, Final
 
 from orchestra.compat.idle_names import may_have_idle_actions
-from orchestra.compat.signs import goes_through, has_event_functions, has_idle_logic, sets_tuples
+from orchestra.compat.signs import codes_in, goes_through, has_event_functions, has_idle_logic, sets_tuples
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
     from types import ModuleType
 
+    from orchestra.compat.signs import Codes
     from orchestra.errors import Problems
     from orchestra.location import Span
 
@@ -28,6 +30,8 @@ _OUTSIDE: Final = re.compile(
 )
 # The end of a word in quotes, and the beginning of another one.
 _SIDE_BY_SIDE: Final = re.compile(rb"""['"](?<=[^\s"'\\=:].)\s+['"][\w/-]""")
+_ALIKE: Final = bytes.maketrans(b"\t\n\v\f\r'", b'     "')  # one blank and one quote
+_ENDED: Final = b'" '
 
 
 class Compiled:
@@ -53,7 +57,8 @@ class Compiled:
 
 def has_foreign(source: bytes) -> bool:
     """Return whether a substitution of another language may stand in the text of a file."""
-    return b"$(" in source or b"'LaunchConfiguration(" in source or b'"LaunchConfiguration(' in source
+    has_call = b"$" in source and b"$(" in source
+    return has_call or b"'LaunchConfiguration(" in source or b'"LaunchConfiguration(' in source
 
 
 def has_doubled_keys(module: ModuleType, source: bytes) -> bool:
@@ -66,21 +71,18 @@ def has_doubled_keys(module: ModuleType, source: bytes) -> bool:
 
 
 def _may_double(own: list[CodeType], source: bytes) -> bool:
-    if any(map(_repeats, own)):
+    known = list(map(codes_in, own))
+    if any(map(_repeats, known)):
         return True
-    may_stand = any(map(_lists_names, own)) or _OUTSIDE.search(b"\n" + source) is not None
+    may_stand = any(map(_lists_names, known)) or _OUTSIDE.search(b"\n" + source) is not None
     return may_stand and source.count(b"':") + source.count(b'":') > _PIECE and _doubles(source)
 
 
-def _repeats(code: CodeType) -> bool:
+def _repeats(codes: Codes) -> bool:
     """Return whether a text is twice in one constant."""
-    for item in code.co_consts:
-        if type(item) is tuple:
-            if len(set(item)) < len(item) and _repeats_text(item):
-                return True
-        elif type(item) is CodeType and _repeats(item):
-            return True
-    return False
+    tuples = codes.tuples
+    different = map(len, map(set, tuples))
+    return any(map(ne, different, map(len, tuples))) and any(map(_repeats_text, tuples))
 
 
 def _repeats_text(items: tuple[object, ...]) -> bool:
@@ -89,13 +91,12 @@ def _repeats_text(items: tuple[object, ...]) -> bool:
     return len(set(texts)) < len(texts)
 
 
-def _lists_names(code: CodeType) -> bool:
+def _lists_names(codes: Codes) -> bool:
     """Return whether a dictionary is made of names that are not one constant."""
-    written = code.co_code
     adding, building = _instructions()
-    if adding in written[::2] or building.search(written) is not None:
-        return True
-    return any(_lists_names(item) for item in code.co_consts if type(item) is CodeType)
+    return adding in codes.operations or any(
+        building.search(written) is not None for written in codes.written
+    )
 
 
 @cache
@@ -131,7 +132,13 @@ def has_late_roots(source: bytes) -> bool:
 
 def has_joined_words(source: bytes) -> bool:
     """Return whether a word may stand in quotes right behind another one."""
-    return _SIDE_BY_SIDE.search(source) is not None
+    alike = source.translate(_ALIKE)
+    place = alike.find(_ENDED)
+    while place >= 0:
+        if _SIDE_BY_SIDE.match(source, place) is not None:
+            return True
+        place = alike.find(_ENDED, place + 1)
+    return False
 
 
 def _changes_nothing(code: CodeType, _source: bytes) -> bool:

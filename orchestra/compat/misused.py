@@ -9,16 +9,17 @@ import re
 from contextlib import suppress
 from functools import cache
 from itertools import chain
-from types import CodeType
 from typing import TYPE_CHECKING, Final
 
-from orchestra.compat.signs import gives_twice
+from orchestra.compat.signs import codes_in, gives_twice, has_text, is_behind, places_of
 from orchestra.patterns import pattern
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Iterator
     from collections.abc import Set as AbstractSet
+    from types import CodeType
 
+    from orchestra.compat.signs import Codes
     from orchestra.errors import Problems
     from orchestra.location import Span
 
@@ -68,7 +69,6 @@ _IN_WORDS: Final = pattern(
     rb"(?:cmd|arguments)\s{0,9}=\s{0,9}\[[^\]]{0,300}\[\s{0,80}['\"][^\]'\"]{0,200}['\"]\s{0,80},\s{0,80}['\"]"
 )
 _GOING_ON: Final = frozenset((b"[", b"(", b",", b"=", b"{", b"+", b"\\"))
-_CLOSING: Final = frozenset((b")", b"]", b"}"))
 _OF_TEXTS: Final = (b"['", b'["', b"('", b'("')
 _IN_LISTS: Final = (b"[[", b", ['", b', ["', b", [\n")
 _LONG: Final = 400
@@ -81,6 +81,8 @@ _ACTIONS: Final = frozenset(
         *("SetRemap", "SetEnvironmentVariable", "AppendEnvironmentVariable"),
     }
 )
+# What a variable is set to that may be left out.
+_SET_TO: Final = pattern(rb"= [\[(A-Z](?<= = .)")
 # What stands behind a variable that is set, or added to.
 _ONLY: Final = (b" = ", b".add_action(", b".add_entity(", b".append(", b".extend(", b".insert(")
 _KEPT: Final = (
@@ -104,78 +106,47 @@ def may_be_misused(code: CodeType, source: bytes) -> bool:
 
     What no name or constant of the code can be a sign of need not be looked for in the text, which takes longer.
     """
-    return any(_signs(_Words(code), source))
+    return any(_signs(codes_in(code), source))
 
 
-class _Words:
-    """The names and constant texts of some code, and of what is in it; names of functions that leave a value alone."""
-
-    def __init__(self, code: CodeType) -> None:
-        self.names, self.left_alone = set[str](), set[str]()
-        self.has_dots = self.has_braces = False
-        self._add(code, {*_operations()})
-
-    def _add(self, code: CodeType, leaving: set[int]) -> None:
-        self.names.update(code.co_names)
-        for item in code.co_consts:
-            if type(item) is CodeType:
-                if not leaving.isdisjoint(item.co_code[::2]):
-                    self.left_alone.update(
-                        item.co_names, item.co_varnames, item.co_freevars, item.co_cellvars
-                    )
-                self._add(item, leaving)
-            elif type(item) is str:
-                self._say(item)
-            elif type(item) is tuple:
-                for part in item:
-                    if type(part) is str:
-                        self._say(part)
-
-    def _say(self, text: str) -> None:
-        if "." in text:
-            self.has_dots = True
-        if "{" in text:
-            self.has_braces = True
+def _left_alone(codes: Codes) -> Iterator[set[str]]:
+    """Yield the names of each function that lets go of the value of a statement."""
+    leaving = _leaving()
+    for item, written in zip(codes.every[1:], codes.written[1:], strict=True):
+        if leaving in written[::2]:
+            yield {*item.co_names, *item.co_varnames, *item.co_freevars, *item.co_cellvars}
 
 
 @cache
-def _operations() -> tuple[int, ...]:
-    """Return the operations that let go of the value of a statement."""
+def _leaving() -> int:
+    """Return the operation that lets go of the value of a statement."""
     from opcode import opmap  # noqa: PLC0415 - once
 
-    return (opmap["POP_TOP"],)
+    return opmap["POP_TOP"]
 
 
-def _signs(words: _Words, source: bytes) -> Iterator[bool]:
+def _signs(codes: Codes, source: bytes) -> Iterator[bool]:
     """Yield whether there is a sign of each kind of misuse."""
-    names = words.names
+    names = codes.names
+    has_dots, has_braces = has_text(codes, ".", "{")
     yield bool(names & _PERFORMING) and _asks_for_texts(source)
     yield bool(names & _METHODS) and _UNCALLED.search(source) is not None
     yield _is_asked_for(names & _CONDITIONS, source)
-    yield words.has_braces and _has_braces(source)
-    is_later = b"for " in source and (b"function" in source or b"on_" in source)
+    yield has_braces and _has_braces(source)
+    has_loop = b"for " in source
+    is_later = has_loop and (b"function" in source or b"on_" in source)
     yield is_later and (b"lambda" in source or b"  def " in source)
-    has_keys = words.has_dots and _ENDS_DOTTED.search(source) is not None
+    has_keys = has_dots and _ENDS_DOTTED.search(source) is not None
     yield has_keys and _DOTTED.search(source) is not None
     yield gives_twice(source)
-    places = [at for word in (b"arguments", b"cmd") for at in _places(word, source)]
+    places = [at for word in (b"arguments", b"cmd") for at in places_of(word, source)]
     has_lists = any(_holds_list(source, at) for at in places) and any(sign in source for sign in _IN_LISTS)
     yield has_lists and any(_IN_WORDS.match(source, at) for at in places)
     yield b"target_" in source and not set(_WAITED_FOR.findall(source)).isdisjoint(_DONE.findall(source))
-    yield _stands_alone(words.left_alone & _ACTIONS, source)
+    yield _stands_alone(_ACTIONS & set[str]().union(*_left_alone(codes)), source)
     yield bool(names & _CHANGING) and _takes_nothing(source)
     yield _is_left_out(source)
-    returned = source.find(b"return")
-    behind = [] if returned < 0 else source[source.rfind(b"\n", 0, returned) + 1 :].splitlines()
-    yield _is_behind(behind) or (b"for " in source and _IN_LOOP.search(source) is not None)
-
-
-def _places(word: bytes, source: bytes) -> Iterator[int]:
-    """Yield where a word stands: a pattern that begins with it would look for it for longer."""
-    at = source.find(word)
-    while at >= 0:
-        yield at
-        at = source.find(word, at + 1)
+    yield is_behind(source) or (has_loop and _IN_LOOP.search(source) is not None)
 
 
 def _holds_list(source: bytes, at: int) -> bool:
@@ -187,7 +158,7 @@ def _holds_list(source: bytes, at: int) -> bool:
 def _is_asked_for(conditions: AbstractSet[str], source: bytes) -> bool:
     """Return whether one of some conditions is asked whether it is true where it is made."""
     made = [f" {name}(".encode() for name in conditions]
-    places = (at for word in made for at in _places(word, source))
+    places = (at for word in made for at in places_of(word, source))
     return any(source.endswith(_ASKING, max(at - _WORD, 0), at) for at in places)
 
 
@@ -223,7 +194,7 @@ def _takes_nothing(source: bytes) -> bool:
 
 def _stands_alone(actions: AbstractSet[str], source: bytes) -> bool:
     """Return whether a line that goes on with nothing before it makes one of some actions."""
-    for at in (at for name in actions for at in _places(f"{name}(".encode(), source)):
+    for at in (at for name in actions for at in places_of(f"{name}(".encode(), source)):
         begin = _line(source, at)
         is_first = not source[begin:at].strip()
         if is_first and source[max(begin - _LONG, 0) : begin].rstrip()[-1:] not in _GOING_ON:
@@ -239,7 +210,8 @@ def _line(source: bytes, place: int) -> int:
 def _is_left_out(source: bytes) -> bool:
     """Return whether a variable is only set and added to, never read, or a list of texts one item of another list."""
     kept, lists = set[bytes](), set[bytes]()
-    for at in _places(b" = ", source):
+    for found in _SET_TO.finditer(source):
+        at = found.start() - 1
         if source.startswith(_KEPT, at + 3):
             kept.add(source[_line(source, at) : at].strip())
         if source.startswith(_OF_TEXTS, at + 3):
@@ -252,7 +224,7 @@ def _is_left_out(source: bytes) -> bool:
 def _is_only_set(name: bytes, source: bytes) -> bool:
     """Return whether a variable stands nowhere but where it is set and added to."""
     uses = 0
-    for at in chain((source.rfind(name),), _places(name, source)):  # most are read at last
+    for at in chain((source.rfind(name),), places_of(name, source)):  # most are read at last
         end = at + len(name)
         if not (_is_of_name(source[end : end + 1]) or (at and _is_of_name(source[at - 1 : at]))):
             is_first = not source[_line(source, at) : at].strip()
@@ -264,25 +236,6 @@ def _is_only_set(name: bytes, source: bytes) -> bool:
 
 def _is_of_name(character: bytes) -> bool:
     return character.isalnum() or character == b"_"
-
-
-def _is_behind(lines: Sequence[bytes]) -> bool:
-    """Return whether something stands behind a return, as far in: what is no closing bracket, and no comment."""
-    far: int | None = None
-    for line in lines:
-        bare = line.lstrip()
-        if far is None and not bare.startswith(b"return"):
-            continue
-        if not bare or bare[:1] == b"#":
-            continue
-        indent = len(line) - len(bare)
-        if far is not None and indent <= far and bare[:1] not in _CLOSING:
-            if indent == far:
-                return True
-            far = None
-        if bare.startswith(b"return"):
-            far = indent
-    return False
 
 
 def tell(path: str, problems: Problems, chain: tuple[Span, ...]) -> None:

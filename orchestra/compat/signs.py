@@ -4,10 +4,18 @@ from __future__ import annotations
 
 import re
 from functools import cache
+from itertools import chain, compress, repeat
+from operator import attrgetter, is_
 from types import CodeType
-from typing import Final
+from typing import TYPE_CHECKING, Final
 
 from orchestra.patterns import pattern
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator, Sequence
+    from typing import TypeVar
+
+    _T = TypeVar("_T")
 
 _BYTE: Final = 0xFF
 # Lines that compare, assert in brackets, or call a method of a text.
@@ -31,6 +39,9 @@ _OF_EVENT: Final = re.compile(rb"(?:lambda[ \t]+|def[ \t]+\w+\((?:self,[ \t]*)?)
 # An empty list or dictionary that may be the default of a parameter.
 _EMPTY: Final = re.compile(rb"def [^\n:]*=[ \t]*(?:\[[ \t]*\]|\{[ \t]*\}|list\(\)|dict\(\))")
 _ITERATORS: Final = frozenset({"filter", "map", "zip"})
+_CLOSING: Final = frozenset((b")", b"]", b"}"))
+_ODD: Final = (b"\t", b"\r", b"\f", b"\v")  # blanks
+_HANDLERS: Final = (b"OnProcess", b"OnShutdown", b"OnExecution")
 # Two dictionaries side by side in a list of parameters, and where such a list begins.
 _SIDE_BY_SIDE: Final = pattern(rb"parameters\s{0,4}=\s{0,4}\[[^\]]{0,800}\}\s{0,80},\s{0,80}\{")
 _PARAMETERS: Final = pattern(rb"parameters\s{0,4}=\s{0,4}\[")
@@ -38,28 +49,62 @@ _PARAMETERS: Final = pattern(rb"parameters\s{0,4}=\s{0,4}\[")
 _IN_LIST: Final = pattern(rb"""(?:'([^'\\\n]*)'|"([^"\\\n]*)")\s*(:)?|#[^\n]*|[\[\]{}]""")
 # Texts that have escapes or lines, or are put together.
 _READ_OTHERWISE: Final = pattern(rb"""\\|'''|\"{3}|[\w.]['"]\s*[bfru]{0,2}['"]""")
+_constants, _names, _written = map(attrgetter, ("co_consts", "co_names", "co_code"))
+
+
+class Codes:
+    """A code and those in it, with what looks ask of them: it is gathered without a step for each constant."""
+
+    __slots__ = ("every", "names", "operations", "parts", "texts", "tuples", "written")
+
+    def __init__(self, code: CodeType) -> None:
+        self.every = every_code(code)
+        self.written: list[bytes] = list(map(_written, self.every))
+        self.operations = b"".join(self.written)[::2]
+        self.names: set[str] = set(chain.from_iterable(map(_names, self.every)))
+        constants = list(chain.from_iterable(map(_constants, self.every)))
+        self.texts = list(_of_kind(str, constants))
+        self.tuples = list(_of_kind(tuple, constants))
+        self.parts: list[object] = list(chain.from_iterable(self.tuples))
+
+
+def every_code(code: CodeType) -> list[CodeType]:
+    """Return a code, and those of the functions and classes inside of it."""
+    found = [code]
+    for outer in found:
+        found += _of_kind(CodeType, outer.co_consts)
+    return found
+
+
+def _of_kind(kind: type[_T], items: Iterable[object]) -> Iterator[_T]:
+    return compress(items, map(is_, map(type, items), repeat(kind)))  # type: ignore[arg-type] # it has been asked
+
+
+_last: list[tuple[CodeType, Codes]] = []
+
+
+def codes_in(code: CodeType) -> Codes:
+    """Return a code with those in it; several looks ask for those of one after the other."""
+    if not _last or _last[0][0] is not code:
+        _last[:] = [(code, Codes(code))]
+    return _last[0][1]
+
+
+def has_text(codes: Codes, *signs: str) -> list[bool]:
+    """Return for each sign whether it is in a text among the constants, or in one of their tuples."""
+    written = "".join(chain(codes.texts, _of_kind(str, codes.parts)))
+    return [sign in written for sign in signs]
 
 
 def has_idle_logic(code: CodeType, source: bytes) -> bool:
     """Return whether a test may always be so, or a statement do nothing."""
-    compares, makes = _does(code)
+    codes = codes_in(code)
+    compares = any(map(codes.operations.__contains__, _comparing()))
     if compares and any(sign.search(source) is not None for sign in (_IN_QUOTES, _COMPARED, _IS)):
         return True
-    if makes and _MADE.search(source) is not None:
+    if not METHODS_OF_TEXTS.isdisjoint(codes.names) and _MADE.search(source) is not None:
         return True
     return b"assert" in source and _ASSERTED.search(source) is not None
-
-
-def _does(code: CodeType) -> tuple[bool, bool]:
-    """Return whether code compares or loops, and whether it makes texts of others."""
-    operations = code.co_code[::2]
-    compares = any(number in operations for number in _comparing())
-    makes = not METHODS_OF_TEXTS.isdisjoint(code.co_names)
-    for item in code.co_consts:
-        if type(item) is CodeType:
-            inner = _does(item)
-            compares, makes = compares or inner[0], makes or inner[1]
-    return compares, makes
 
 
 @cache
@@ -71,46 +116,47 @@ def _comparing() -> tuple[int, ...]:
 
 def goes_through(code: CodeType, source: bytes) -> bool:
     """Return whether something may be gone through but once, or be one for several calls."""
-    return _EMPTY.search(source) is not None or _goes_through(code)
-
-
-def _goes_through(code: CodeType) -> bool:
-    """Return whether there is something that is gone through but once."""
-    if code.co_name == "<genexpr>" or not _ITERATORS.isdisjoint(code.co_names) or _sets_again(code):
+    if _EMPTY.search(source) is not None:
         return True
-    return any(_goes_through(item) for item in code.co_consts if type(item) is CodeType)
+    codes = codes_in(code)
+    is_through = not _ITERATORS.isdisjoint(codes.names) or any(
+        item.co_name == "<genexpr>" for item in codes.every
+    )
+    return is_through or any(map(_sets_again, codes.written))
 
 
-def _sets_again(code: CodeType) -> bool:
+def _sets_again(written: bytes) -> bool:
     """Return whether a variable is set twice to what a call returns."""
-    called, pairs = _calls()
+    called, pairs, setting = _calls()
+    behind = [piece[:1] for sign in setting for piece in written.split(sign)[1:]]
+    if not pairs and len(set(behind)) == len(behind):  # most are set once
+        return False
     # The two variables of an instruction for both are half of its argument each.
-    found = [
-        place[2][0] >> 4 if place[1][0] in pairs else place[2][0] for place in called.finditer(code.co_code)
-    ]
+    found = [place[2][0] >> 4 if place[1][0] in pairs else place[2][0] for place in called.finditer(written)]
     return len(set(found)) < len(found)
 
 
 @cache
-def _calls() -> tuple[re.Pattern[bytes], bytes]:
-    """Return what a call is and the instruction that sets a variable behind it, and those of these for two."""
+def _calls() -> tuple[re.Pattern[bytes], bytes, list[bytes]]:
+    """Return what a call is and the instruction that sets a variable behind it, those of these for two, and all."""
     from opcode import opmap  # noqa: PLC0415 - once
 
     pairs = bytes(opmap[name] for name in ("STORE_FAST_LOAD_FAST", "STORE_FAST_STORE_FAST") if name in opmap)
-    setting = re.escape(bytes((opmap["STORE_FAST"],)) + pairs)
+    setting = bytes((opmap["STORE_FAST"],)) + pairs
     calls = re.escape(bytes(opmap[name] for name in ("CALL", "CALL_KW", "CALL_FUNCTION_EX") if name in opmap))
-    return re.compile(b"[" + calls + b"].(?:\0.)*([" + setting + b"])(.)", re.DOTALL), pairs
+    called = re.compile(b"[" + calls + b"].(?:\0.)*([" + re.escape(setting) + b"])(.)", re.DOTALL)
+    return called, pairs, [bytes((number,)) for number in setting]
 
 
 def has_event_functions(_code: CodeType, source: bytes) -> bool:
     """Return whether a function may be called with what an event handler waits for."""
-    has_handler = any(sign in source for sign in (b"OnProcess", b"OnShutdown", b"OnExecution"))
+    has_handler = b"On" in source and any(map(source.__contains__, _HANDLERS))
     return has_handler and _OF_EVENT.search(source) is not None
 
 
 def gives_twice(source: bytes) -> bool:
     """Return whether two dictionaries in a list of parameters may both have a value for one name."""
-    if (b"}, {" not in source and b"},\n" not in source) or _SIDE_BY_SIDE.search(source) is None:
+    if _SIDE_BY_SIDE.search(source) is None or (b"},\n" not in source and b"}, {" not in source):
         return False
     return any(_has_twice(source, found.end()) for found in _PARAMETERS.finditer(source))
 
@@ -135,31 +181,96 @@ def _has_twice(source: bytes, begin: int) -> bool:
     return _READ_OTHERWISE.search(source, begin, end) is not None
 
 
-def sets_tuples(code: CodeType, _source: bytes = b"") -> bool:
+def sets_tuples(code: CodeType, _source: bytes) -> bool:
     """Return whether a name is set to a tuple of one."""
-    written = code.co_code
-    loading, building, setting = _storing()
-    if building.search(written) is not None:
+    codes = codes_in(code)
+    building = _storing()[0]
+    if any(building.search(written) is not None for written in codes.written):
         return True
-    for number, item in enumerate(code.co_consts):
-        if type(item) is CodeType:
-            if sets_tuples(item):
-                return True
-        elif type(item) is tuple and len(item) == 1:
-            # The number of a late constant is longer, which the instruction before says.
-            place = written.find(bytes((loading, number & _BYTE)))
-            while place >= 0:
-                if place % 2 == 0 and written[place + 2] in setting:
-                    return True
-                place = written.find(bytes((loading, number & _BYTE)), place + 1)
+    return 1 in map(len, codes.tuples) and any(map(_sets_tuple, codes.every, codes.written))
+
+
+def _sets_tuple(code: CodeType, written: bytes) -> bool:
+    """Return whether a name is set to a tuple of one that is a constant."""
+    kinds = written[::2].translate(_storing()[1])
+    place = kinds.find(_SETS)
+    while place >= 0:
+        # The number of a late constant is longer, which the instruction before says.
+        loaded = code.co_consts[written[2 * place + 1] :: _BYTE + 1]
+        if any(type(item) is tuple and len(item) == 1 for item in loaded):
+            return True
+        place = kinds.find(_SETS, place + 1)
     return False
 
 
+_LOADS, _STORES, _SETS = 1, 2, b"\1\2"
+
+
 @cache
-def _storing() -> tuple[int, re.Pattern[bytes], bytes]:
-    """Return the operation that loads a constant, the instructions that set a name to a tuple of one, and what sets."""
+def _storing() -> tuple[re.Pattern[bytes], bytes]:
+    """Return the instructions that set a name to a tuple of one, and a table of the operations that load and that set.
+
+    A constant is loaded, names are set.
+    """
     from opcode import opmap  # noqa: PLC0415 - once
 
     setting = bytes(number for name, number in opmap.items() if name.startswith("STORE_") and number <= _BYTE)
     building = re.escape(bytes((opmap["BUILD_TUPLE"], 1))) + b"[" + re.escape(setting) + b"]"
-    return opmap["LOAD_CONST"], re.compile(building, re.DOTALL), setting
+    table = bytes(_STORES if number in setting else 0 for number in range(_BYTE + 1))
+    loading = opmap["LOAD_CONST"]
+    table = table[:loading] + bytes((_LOADS,)) + table[loading + 1 :]
+    return re.compile(building, re.DOTALL), table
+
+
+def is_behind(source: bytes) -> bool:
+    """Return whether something stands behind a return, as far in: what is no closing bracket, and no comment."""
+    if any(map(source.__contains__, _ODD)):
+        return _is_behind_one_of(source.splitlines())
+    returns = list(_returns(source))
+    following = [*returns[1:], (len(source), -1)]
+    for (begin, far), (end, indent) in zip(returns, following, strict=False):
+        found = _no_further_in(far).search(source, begin, end)
+        if far == (indent if found is None else found.end() - found.start() - 2):
+            return True
+    return False
+
+
+def _returns(source: bytes) -> Iterator[tuple[int, int]]:
+    """Yield where each line begins that begins with a return, and how far in that is."""
+    for at in places_of(b"return", source):
+        begin = source.rfind(b"\n", 0, at) + 1
+        if not source[begin:at].strip():
+            yield begin, at - begin
+
+
+@cache
+def _no_further_in(far: int) -> re.Pattern[bytes]:
+    """Return the first word of a line that stands so far in at most, but for closing brackets and comments."""
+    return re.compile(rb"\n {0,%d}+[^ \n#)\]}]" % far)
+
+
+def _is_behind_one_of(lines: Sequence[bytes]) -> bool:
+    """Return what `is_behind` does of lines with blanks of several kinds."""
+    far: int | None = None
+    for line in lines:
+        bare = line.lstrip()
+        if far is None and not bare.startswith(b"return"):
+            continue
+        if not bare or bare[:1] == b"#":
+            continue
+        indent = len(line) - len(bare)
+        if far is not None and indent <= far and bare[:1] not in _CLOSING:
+            if indent == far:
+                return True
+            far = None
+        if bare.startswith(b"return"):
+            far = indent
+    return False
+
+
+def places_of(word: bytes, source: bytes) -> Iterator[int]:
+    """Yield where a word stands: a pattern that begins with it would look for it for longer."""
+    at = source.find(word)
+    while at >= 0:
+        yield at
+        at = source.find(word, at + 1)

@@ -13,7 +13,9 @@ from __future__ import annotations
 
 import builtins
 import sys
+from itertools import compress, repeat
 from opcode import opmap
+from operator import is_
 from types import CodeType
 from typing import Final, NamedTuple
 
@@ -126,7 +128,7 @@ def changes_nothing(code: CodeType) -> bool:
             return False
         codes.append(seen)
         own.update(seen.names)
-        waiting += [inner for inner in item.co_consts if type(inner) is CodeType]
+        waiting += compress(item.co_consts, map(is_, map(type, item.co_consts), repeat(CodeType)))
     own = own - WORDS - MODULES  # not in place: that goes through all of the words
     return _IS_KNOWN and (not own or _are_own(own, codes))
 

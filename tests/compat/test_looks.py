@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import random
 from typing import TYPE_CHECKING
 
 import pytest
 
 from orchestra.compat import syntax_trees
 from orchestra.compat.looks import Compiled, has_doubled_keys, has_joined_words
-from orchestra.compat.signs import gives_twice
+from orchestra.compat.signs import gives_twice, is_behind
 from orchestra.errors import Problems
 from orchestra.pipeline import collect, inputs_from
 from tests.compat.modules import loaded
@@ -64,6 +65,33 @@ def test_names_that_may_stand_twice_are_looked_for(name: str) -> None:
 )
 def test_words_that_may_lack_a_comma_are_looked_for(source: str, joined: bool) -> None:
     assert has_joined_words(source.encode()) is joined
+
+
+@pytest.mark.parametrize(
+    ("source", "behind"),
+    [
+        ("def f():\n    return 1\n    x = 2\n", True),
+        ("def f():\n    return [\n        1,\n    ]\n    x = 2\n", True),
+        ("def f():\n    return [\n        1,\n    ]\n\n    # x = 2\n\n\ndef g():\n    pass\n", False),
+        ("def f():\n    if x:\n        return 1\n    return 2\n", False),
+        ("def f():\n    return (\n        returned,\n        x,\n    )\n", True),
+        ("def f():\n    # return\n    x = 2\n", False),
+    ],
+)
+def test_what_may_stand_behind_a_return_is_looked_for(source: str, behind: bool) -> None:
+    assert is_behind(source.encode()) is behind
+
+
+def test_what_stands_behind_a_return_is_found_whatever_lines_end_with() -> None:
+    rng = random.Random(1)  # noqa: S311 - nothing secret
+    pieces = ("\n", "\n", "\n    ", "\n        ", "return", "    return x", "x", ")", "]", "# y", " ", "    ")
+    found = 0
+    for _ in range(3000):
+        source = "".join(rng.choices(pieces, k=rng.randrange(30)))
+        told = is_behind(source.encode())
+        found += told
+        assert is_behind(source.replace("\n", "\r\n").encode()) is told, source
+    assert found
 
 
 _WHOLE = """\
