@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Annotated, TypeAlias
+from collections.abc import Callable
+from typing import Annotated, Any, ClassVar, Final, TypeAlias, TypeVar
 
 from orchestra.description.conflict import Conflict
-from orchestra.description.entity import Entity
+from orchestra.description.entity import Entity, set_beside, set_values
 from orchestra.description.fields import AnyValue, Flag, Seconds, Text, word, worded
 from orchestra.description.marks import Plain
-from orchestra.description.model import field
+from orchestra.description.model import Model, field
 from orchestra.description.ranges import BUDGET, GROWTH, SHARE
 from orchestra.description.text import Template
 
@@ -128,6 +129,59 @@ class Param(Entity):
             return Conflict("`allow_substs` goes with `from`", ("allow_substs",))
         typeless = self.type is not None and self.value is None
         return Conflict("`type` goes with `value`", ("type",)) if typeless else None
+
+
+class Late:
+    """A part that is known by its two literals, and becomes an ordinary one when somebody asks for anything of it.
+
+    Its row has the two, then what makes fields of the row, and what is known beside them.
+    """
+
+    __slots__ = ()
+
+    ordinary: ClassVar[type[Entity]]
+
+    def __getattribute__(self, name: str) -> Any:  # noqa: ANN401 - any attribute
+        kind: Any = type(self)
+        row = row_of(self)
+        object.__setattr__(self, "__class__", kind.ordinary)
+        made: Any = self
+        values, beside = row[2](row)
+        set_values(made, values)
+        set_beside(made, beside)
+        return getattr(made, name)
+
+    def __hash__(self) -> int:
+        return self.__hash__()
+
+
+class LateRemap(Late, Remap):
+    """A rule of two literal texts."""
+
+    __slots__ = ()
+
+    ordinary = Remap
+
+
+class LateParam(Late, Param):
+    """A parameter by its name, and a value that has its type."""
+
+    __slots__ = ()
+
+    ordinary = Param
+
+
+_LateT = TypeVar("_LateT", LateRemap, LateParam)
+_new: Final = object.__new__
+_set_row: Final[Callable[[Any, tuple[Any, ...]], None]] = vars(Model)["__pydantic_extra__"].__set__
+row_of: Final[Callable[[Any], tuple[Any, ...]]] = vars(Model)["__pydantic_extra__"].__get__
+
+
+def late(kind: type[_LateT], row: tuple[Any, ...]) -> _LateT:
+    """Return a part of which only the row is known."""
+    made = _new(kind)
+    _set_row(made, row)
+    return made
 
 
 class Override(Param):

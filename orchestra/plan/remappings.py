@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from orchestra.resolve.model import ResolvedComponent, ResolvedProcess
 
 _ROOT = "/"  # where hardly any program chooses another namespace
-_TEXTS: Final = attrgetter("source.text", "target.text")
+_TEXTS: Final = attrgetter("texts")
 _FIRST: Final = itemgetter(0)
 
 

@@ -50,8 +50,7 @@ class InlineParameter(_Written):
     """A parameter written in the description; `everywhere` where it was set for all nodes of a scope.
 
     `keys` are the names it is written with, from the outermost level inwards: each as far as it goes, and its place.
-    `items` are the places of a list's items, none where they are not known. Few places are ever asked for: see
-    `plainly`.
+    `items` are the places of a list's items, as far as they are known. Few places are asked for: see `plainly`.
     """
 
     name: str
@@ -114,13 +113,6 @@ class FileParameters(_Written):
             return self.location
 
 
-# What a resolution makes thousands of; `new_remap` is another one, and processes are filled in where they are made.
-new_parameter = maker(InlineParameter)
-new_file = maker(FileParameters)
-
-ParameterSource: TypeAlias = InlineParameter | FileParameters
-
-
 @dataclass(frozen=True, slots=True)
 class ResolvedRemap:
     """One remapping rule."""
@@ -128,8 +120,18 @@ class ResolvedRemap:
     source: Value
     target: Value
 
+    @property
+    def texts(self) -> tuple[str, str]:
+        """Both sides."""
+        return self.source.text, self.target.text
 
+
+# What a resolution makes thousands of; processes are filled in where they are made.
+new_parameter = maker(InlineParameter)
+new_file = maker(FileParameters)
 new_remap = maker(ResolvedRemap)
+
+ParameterSource: TypeAlias = InlineParameter | FileParameters
 
 
 @dataclass(frozen=True, slots=True)

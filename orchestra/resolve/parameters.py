@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import partial
 from typing import TYPE_CHECKING
 
-from orchestra.description.parts import VALUE_TYPES, Override
+from orchestra.description.parts import VALUE_TYPES, LateParam, Override
 from orchestra.description.text import (
     Constant,
     Items,
@@ -66,8 +66,9 @@ def parameters(
     found: list[ParameterSource] = []
     whole = True
     for param in written:
-        if param.from_ is None:
-            everywhere = isinstance(param, Override)
+        kind = type(param)
+        if kind is LateParam or param.from_ is None:
+            everywhere = kind is Override
             plain = plainly(param, run, everywhere, quotes)
             if plain is not None:
                 found.append(plain)

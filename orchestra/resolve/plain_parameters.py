@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Final
 
+from orchestra.description.parts import LateParam, row_of
 from orchestra.description.text import Constant, Items, MatchedTemplate, Template, Words
 from orchestra.resolve.evaluate import plainly as known_text
 from orchestra.resolve.late_values import matched_value
@@ -25,25 +26,31 @@ def plainly(param: Param, run: Resolution, everywhere: bool, quotes: bool) -> In
 
     `everywhere`: it is for all nodes. Without `quotes`, a text in quotes is typed as any other.
     """
-    called, written = param.name, param.value
-    if type(called) is not MatchedTemplate or param.type is not None or param.param is not None:
-        return None
-    name = called.constant
-    if not name or may_be_odd(name):
-        return None
     reads: tuple[Read, ...] = ()
-    if type(written) is not MatchedTemplate:
-        value = read_at_once(param, quotes)
-    elif written.constant is None:
-        known = known_text(written, run.context)
-        if known is None or known[0][:1] == "/":  # a path may lead nowhere
-            return None
-        value, reads = value_alike(known[0]), known[1]
-    elif written.constant and not (written.quoted and quotes):
-        value = value_alike(written.constant)
+    if type(param) is LateParam:
+        name, value = row_of(param)[:2]
+        value = held(value)
     else:
-        value = written.constant or None
-    if value is None:
+        called, written = param.name, param.value
+        if type(called) is not MatchedTemplate or param.type is not None or param.param is not None:
+            return None
+        name = called.constant
+        if type(written) is not MatchedTemplate:
+            value = (
+                held(written.value)
+                if type(written) is Constant and not everywhere
+                else read_at_once(param, quotes)
+            )
+        elif written.constant is None:
+            known = known_text(written, run.context)
+            if known is None or known[0][:1] == "/":  # a path may lead nowhere
+                return None
+            value, reads = value_alike(known[0]), known[1]
+        elif written.constant and not (written.quoted and quotes):
+            value = value_alike(written.constant)
+        else:
+            value = written.constant or None
+    if value is None or not name or may_be_odd(name):
         return None
     made: Any = _new(InlineParameter)
     made.name = name
@@ -53,6 +60,19 @@ def plainly(param: Param, run: Resolution, everywhere: bool, quotes: bool) -> In
     made._written = param, run.context.included_from  # noqa: SLF001 - it is made here
     parameter: InlineParameter = made
     return parameter
+
+
+def held(value: ParameterValue) -> ParameterValue | None:
+    """Return a value that has its type, where rcl can hold it as it is; None where that takes a closer look."""
+    kind = type(value)
+    if kind is float or kind is bool:
+        return value
+    if kind is str:
+        return value if value.isprintable() else None  # type: ignore[union-attr] # as it says
+    if kind is not tuple:
+        return number_held(value)
+    kinds: Any = {*map(type, value)}  # type: ignore[arg-type] # as above
+    return value if kinds in _ALIKE and None not in map(held, value) else None  # type: ignore[arg-type] # as above
 
 
 def given_again(written: Template, run: Resolution, *, plain: bool) -> FileParameters | None:
@@ -106,6 +126,7 @@ def given(file: FileParameters, value: Value, *, everywhere: bool) -> FileParame
 
 
 _new = object.__new__
+_ALIKE: Final = ({str}, {float}, {bool}, {int})
 
 
 def read_at_once(param: Param | SetParameter, quotes: bool) -> ParameterValue | None:

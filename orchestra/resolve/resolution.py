@@ -179,7 +179,7 @@ class Resolution:
             return None if template is None else evaluate(template, self.context)
         if template.constant is not None:
             return matched_value(template.constant, template, self.context.included_from)
-        known = None if template.pieces is None else self.scope.filled(template.pieces)
+        known = None if template.pieces is None else self.scope.filled(template.pieces, template.raw)
         if known is None:
             return performed(template, self.context)
         return matched_value(known[0], template, self.context.included_from, known[1])

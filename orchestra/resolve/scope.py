@@ -13,6 +13,7 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
 from orchestra.dataclass import dataclass
+from orchestra.description.text import Pieces
 from orchestra.errors import Code, Problems
 from orchestra.fields import field
 from orchestra.resolve.bounded import with_change, with_parameter
@@ -24,7 +25,6 @@ from orchestra.resolve.scalars import flow
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
 
-    from orchestra.description.text import Pieces
     from orchestra.location import Location, Span
     from orchestra.resolve.context import Evaluated, ReadKind, Setter
 
@@ -71,7 +71,7 @@ class Scope:
     saved_settings: list[SavedSettings] = field(default_factory=list)
     environment_copy: dict[str, str] | None = None  # where somebody has made one, until that is changed
     _noted: dict[tuple[str, ...], tuple[Read, ...]] = field(default_factory=dict)  # until a variable is set
-    _filled: dict[int, tuple[str, tuple[Read, ...], Any]] = field(default_factory=dict)  # as long
+    _filled: dict[int | str, tuple[str, tuple[Read, ...], Any]] = field(default_factory=dict)  # as long
     _journal: list[tuple[dict[str, Any], str, Any]] = field(default_factory=list)
     _reads: list[Read] | None = None
 
@@ -101,15 +101,16 @@ class Scope:
             self._reads += found
         return found
 
-    def filled(self, pieces: Pieces) -> tuple[str, tuple[Read, ...]] | None:
+    def filled(self, pieces: Pieces, raw: str) -> tuple[str, tuple[Read, ...]] | None:
         """Return what variables alone make of a text, and what is noted of them; None as `known`, or for any other."""
-        found = self._filled.get(id(pieces))
+        key = id(pieces) if type(pieces) is Pieces else raw  # which code puts together are others each time
+        found = self._filled.get(key)
         if found is None:
             reads = None if pieces.variables is None else self.known(pieces.variables)
             if reads is None:
                 return None
             text = pieces.filled([read.value for read in reads])
-            self._filled[id(pieces)] = text, reads, pieces
+            self._filled[key] = text, reads, pieces
             return text, reads
         self.ledger.read.update(pieces.variables or ())
         if self._reads is not None:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, Final
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from orchestra.compat.place import Arguments, Way
+    from orchestra.compat.place import Arguments
 
 
 class Form:
@@ -62,7 +62,7 @@ class Code:
 
     `texts` are what must be texts with nothing to look at in them, `needed` those of them that must not be empty;
     `variables` are the lines that take variables of launch files, `others` those that read what has to be read each
-    time, `making` those before the fields are made.
+    time.
     """
 
     def __init__(self, known: dict[str, Any]) -> None:
@@ -70,7 +70,6 @@ class Code:
         self.needed: list[str] = []
         self.variables: list[str] = []
         self.others: list[str] = []
-        self.making: list[str] = []
         self._known = known
         self._levels: list[Level] = []
         self._leaves: list[str] = []
@@ -94,12 +93,6 @@ class Code:
         while len(self._levels) <= level:
             self._levels.append(Level())
         return self._levels[level]
-
-    def at(self, path: tuple[Way, ...]) -> str:
-        """Return the variable that has what is beside the fields of what stands at the place of an argument."""
-        name = self.new(1)[0]
-        self.making.append(f"{name} = standing_at(call, {self.constant(path)})")
-        return name
 
     def leaf(self, var: str) -> Leaf:
         """Have something taken that may differ."""
@@ -142,10 +135,10 @@ class Code:
         lines += self.others
         taking = "\n  ".join(lines)
         leaves = targets(self._leaves)
-        making = "\n ".join([f"{leaves} = leaves" if leaves else "", *self.making])
+        making = f"{leaves} = leaves" if leaves else ""
         text = (
             f"def take(given, call):\n try:\n  {taking}\n except unusual: return None\n return ({leaves})\n"
-            f"def make(leaves, call):\n place = call.place\n {making}\n"
+            f"def make(leaves, call):\n {making}\n"
             f" return nothing | {{{', '.join(fields)}}}\n"
         )
         exec(compile(text, _WRITTEN, "exec"), self._known)  # noqa: S102 - names that are made here

@@ -15,14 +15,15 @@ from orchestra.compat.launch_ros.plain_texts import (
     whole_text,
 )
 from orchestra.compat.place import Arguments, argument
-from orchestra.description.parts import Param, Remap
+from orchestra.description.parts import LateParam, LateRemap, Param, Remap, late
 from orchestra.description.text import matched_words, new_constant, new_template, new_words
 from orchestra.description.written import escaped
 
 if TYPE_CHECKING:
     from orchestra.compat.launch_ros.plain_texts import Reader
     from orchestra.compat.place import Way
-    from orchestra.description.text import Part
+    from orchestra.description.text import Part, Template
+    from orchestra.location import Span
 
 
 def parameters(field: str) -> Reader:
@@ -66,19 +67,20 @@ def remaps(name: str, value: Any, call: Arguments, fields: dict[str, Any], kept:
     """Read a list of rules, of which each has two sides."""
     if type(value) is not list:
         raise UnusualError
-    beside = standing_at(call, (name,))
-    made, own = [], []
+    made: list[Remap] = []
+    own = []
     for index, rule in enumerate(value):
         if type(rule) is not tuple or len(rule) != _SIDES:
             raise UnusualError
         source, target = rule
-        if type(source) is str and "$" not in source and "\\" not in source:  # as `plain_text` does, at once
-            from_ = matched_words(source, False, call, (name, index, 0))  # type: ignore[arg-type] # its groups are paths
-        else:
-            from_ = plain_text(source, call, (name, index, 0))
-        to = plain_text(target, call, (name, index, 1))
+        if type(source) is type(target) is str and "$" not in (both := source + target) and "\\" not in both:
+            made.append(late(LateRemap, (source, target, rule_of, call, (name, index))))
+            own.append(rule)
+            continue
+        beside = standing_at(call, (name,))
+        from_, to = plain_text(source, call, (name, index, 0)), plain_text(target, call, (name, index, 1))
         made.append(entity(Remap, {"from_": from_, "to": to}, beside))
-        own.append(rule if type(source) is type(target) is str else copied(rule))
+        own.append(copied(rule))
     fields["remap"] = tuple(made)
     kept[name] = own
 
@@ -91,27 +93,43 @@ def entries(
     made: list[Param],
 ) -> dict[Any, Any]:
     """Add the parameters of a dictionary, whose names begin with what is around it; return a copy of it."""
-    before, written, known = around
-    own, span, beside = {}, call.span(path), standing_at(call, path)
+    known = around[2]
+    own: dict[Any, Any] = {}
     for key, value in items.items():
         if type(key) is not str:
             raise UnusualError
-        name = known + key
-        if type(value) is dict:
+        kind = type(value)
+        if kind is dict:
             if key == "ros__parameters":
                 raise UnusualError
-            parts = (*before, new_words(key, span)) if key else before
-            inner = ((*parts, new_words(".", span)), f"{written}{escaped(key)}.", f"{name}.")
+            before, written, span = _before(key, around, call.span(path)), around[1], call.span(path)
+            inner = ((*before, new_words(".", span)), f"{written}{escaped(key)}.", f"{known}{key}.")
             own[key] = entries(value, inner, call, path, made)
             continue
-        if before or "$" in key or "\\" in key:
-            parts = (*before, new_words(key, span)) if key else before
-            called = new_template(parts, written + escaped(key), span)
-        else:
-            called = matched_words(key, False, call, path)  # type: ignore[arg-type] # its groups are paths
-        read, own[key] = value_of(value, call, (*path, name))
-        made.append(_param({"name": called, "value": read}, beside))
+        own[key] = value if kind in SCALARS else copied(value)
+        held = value if kind in SCALARS else held_of(value)
+        if held is not None:
+            made.append(late(LateParam, (known + key, held, parameter_of, call, path, around)))
+            continue
+        called = _called(known + key, around, call, path)
+        read = value_of(value, call, (*path, known + key))
+        made.append(_param({"name": called, "value": read}, standing_at(call, path)))
     return own
+
+
+def _before(key: str, around: tuple[tuple[Part, ...], str, str], span: Span) -> tuple[Part, ...]:
+    """Return the words of a name up to the end of a key."""
+    return (*around[0], new_words(key, span)) if key else around[0]
+
+
+def _called(
+    name: str, around: tuple[tuple[Part, ...], str, str], call: Arguments, path: tuple[Way, ...]
+) -> Template:
+    """Return the name of a parameter as a text."""
+    if not around[0] and "$" not in name and "\\" not in name:
+        return matched_words(name, False, call, path)  # type: ignore[arg-type] # its groups are paths
+    span, key = call.span(path), name[len(around[2]) :]
+    return new_template(_before(key, around, span), around[1] + escaped(key), span)
 
 
 def _param(fields: dict[str, Any], beside: dict[str, Any]) -> Param:
@@ -119,20 +137,45 @@ def _param(fields: dict[str, Any], beside: dict[str, Any]) -> Param:
     return made
 
 
-def value_of(value: Any, call: Arguments, path: tuple[Way, ...]) -> tuple[Any, Any]:
-    """Return what the value of a parameter is to the model, and a copy of it."""
+def parameter_of(row: tuple[Any, ...]) -> tuple[dict[str, Any], dict[str, Any]]:
+    """Return the fields of a parameter whose value is known, and what is beside them."""
+    name, value, _, call, path, around = row
+    called = _called(name, around, call, path)
+    read = new_constant(value, argument(call.place, (*path, name)))
+    return NO_PARAMETER | {"name": called, "value": read}, standing_at(call, path)
+
+
+def rule_of(row: tuple[Any, ...]) -> tuple[dict[str, Any], dict[str, Any]]:
+    """Return the fields of a rule of two texts, and what is beside them."""
+    source, target, _, call, path = row
+    fields = {
+        "from_": matched_words(source, False, call, (*path, 0)),  # type: ignore[arg-type] # its groups are paths
+        "to": matched_words(target, False, call, (*path, 1)),  # type: ignore[arg-type] # as above
+    }
+    return fields, standing_at(call, path[:1])
+
+
+def value_of(value: Any, call: Arguments, path: tuple[Way, ...]) -> Any:
+    """Return what the value of a parameter is to the model where that takes a visit to know."""
     kind = type(value)
-    if kind in SCALARS:
-        return new_constant(value, argument(call.place, path)), value
+    return composed(value, call, path) if kind is list or kind is tuple else whole_text(value)
+
+
+def held_of(value: Any) -> Any:
+    """Return a list of scalars as it is to the model; None for what only a visit knows."""
+    kind = type(value)
     if kind is not list and kind is not tuple:
-        return whole_text(value), value
+        return None
     kinds = set(map(type, value))
-    if kinds <= SCALARS:
-        if len(kinds) > 1 and kinds not in ({int, float}, {bool, int}):
-            raise UnusualError
-        items = map(float, value) if kinds == {int, float} else value
-        return new_constant(tuple(items), argument(call.place, path)), kind(value)
-    return composed(value, call, path), kind(value)
+    if not kinds <= SCALARS:
+        return None
+    if len(kinds) <= 1:
+        return tuple(value)
+    if kinds == {int, float}:
+        return tuple(map(float, value))
+    if kinds == {bool, int}:
+        return tuple(value)
+    raise UnusualError
 
 
 _SIDES: Final = 2
