@@ -14,7 +14,7 @@ from orchestra.description.actions.arg import Arg
 from orchestra.description.actions.include import Include
 from orchestra.description.actions.opaque import OpaqueAction
 from orchestra.description.entity import Entity
-from orchestra.description.text import Call, MatchedTemplate, Opaque, Template, Words
+from orchestra.description.text import Call, MatchedTemplate, Opaque, PlainCall, PlainPath, Template, Words
 from orchestra.errors import Problems
 from orchestra.fields import replace
 from orchestra.resolve.context import CommandResult, Context, Value, Variable
@@ -36,6 +36,13 @@ if TYPE_CHECKING:
 
 def is_fixed(template: Template) -> bool:
     """Return whether a text comes to the same whatever is set."""
+    pieces = (
+        template.pieces.pieces if type(template) is MatchedTemplate and template.pieces is not None else ()
+    )
+    if PlainPath in map(type, pieces):  # a call that joins its components, whatever these are
+        return False
+    if pieces and _OF_WORDS.issuperset(map(type, pieces)):  # the same, without the places of its parts
+        return all(type(piece) is str or piece.name in _FIXED for piece in pieces)  # type: ignore[union-attr] # as it says
     return all(isinstance(part, Call) and part.name in _FIXED for part in performed_in(template))
 
 
@@ -132,6 +139,7 @@ def names_behind(
 # Most of what is in an entity, and never one itself.
 _PLAIN = frozenset({Template, MatchedTemplate, str, bool, type(None)})
 _NAMING = (Include, OpaqueAction)
+_OF_WORDS = frozenset({str, PlainCall})
 _FIXED = frozenset({"dirname", "filename", "find-pkg-prefix", "find-pkg-share"})
 
 
@@ -214,12 +222,8 @@ def templates_of(entity: Entity) -> list[Template]:
     """Return the texts of an entity, those of the entities in it left out."""
     found: list[Template] = []
     for value in vars(entity).values():
-        if value is None:
-            continue
         if isinstance(value, Template):
             found.append(value)
-        elif type(value) is tuple:
-            found += [text for text in value if isinstance(text, Template)]
         elif type(value) not in _PLAIN:
             for item in value.values() if isinstance(value, dict) else (value,):
                 found += (
