@@ -38,26 +38,27 @@ class Attribute:
         span = stretch(whole, self.begin, self.end)
         if whole.text[self.begin : self.end] == self.value:
             return Verbatim(self.value, span)
-        return Written(self.value, span, self._spans(whole))
-
-    def _spans(self, whole: Source) -> Callable[[int, int], Span]:
-        begin, end = self.begin, self.end
-        source = whole.text[begin:end]
-        offsets: list[int] = []
-
-        def spans(first: int, last: int) -> Span:
-            if not offsets:
-                at = begin
-                for found in _PIECE.finditer(source):
-                    offsets.extend(range(at, begin + found.start() + 1))
-                    at = begin + found.end()
-                offsets.extend(range(at, end + 1))
-            return whole.span(offsets[first], offsets[last])
-
-        return spans
+        return Written(self.value, span, spans_in(whole, lambda: (self.begin, self.end)))
 
 
 new_attribute = maker(Attribute)  # a file has thousands
+
+
+def spans_in(whole: Source, value: Callable[[], tuple[int, int]]) -> Callable[[int, int], Span]:
+    """Return what gives the places of parts of a value whose source stands between two offsets."""
+    offsets: list[int] = []
+
+    def spans(first: int, last: int) -> Span:
+        if not offsets:
+            begin, end = value()
+            at = begin
+            for found in _PIECE.finditer(whole.text, begin, end):
+                offsets.extend(range(at, found.start() + 1))
+                at = found.end()
+            offsets.extend(range(at, end + 1))
+        return whole.span(offsets[first], offsets[last])
+
+    return spans
 
 
 @dataclass(slots=True)

@@ -17,7 +17,7 @@ from orchestra.errors import Problems
 from orchestra.fields import replace
 from orchestra.load import xml_file, yaml_file
 from orchestra.load.alike import xml_items, yaml_items
-from orchestra.load.alike.learned import Forms
+from orchestra.load.alike.learned import Forms, action_of
 from orchestra.load.alike.one_by_one import actions
 from orchestra.load.entities import describe
 from orchestra.load.offsets import source
@@ -207,7 +207,8 @@ def test_thousands_of_hostile_files_are_read_alike(monkeypatch: pytest.MonkeyPat
 @pytest.mark.parametrize("head", ["", "<?xml version='1.0'?>", "<!-- a -->", "<launch>"])
 def test_blanks_are_matched_in_one_way(head: str) -> None:
     blanks = " \n" * 10_000
-    assert xml_items.items(source("a", f"{head}{blanks}<robot>{blanks}")) is None
+    written = source("a", f"{head}{blanks}<robot>{blanks}")
+    assert actions(cast("Any", xml_items), written, Reader(Problems())) is None
 
 
 def test_long_words_are_gone_through_once() -> None:
@@ -248,8 +249,8 @@ def test_forms_are_learned(
     assert len(known) == 1
     others = [("x", "/y", "Z1", "true"), ("long_one", "$(var a)", "no text", "true")]
     text = written.format("".join(template.format(*item) for item in others))
-    match = known[0].pattern.fullmatch
-    assert all(match(text, item.begin, item.end) for item in items.items(source("a", text)))
+    reader, whole = Reader(Problems()), source("a", text)
+    assert all(action_of(known, whole, item, reader) for item in items.items(whole))
     assert _compare(text, items, module)
 
 
@@ -399,13 +400,27 @@ def test_what_takes_a_closer_look_is_left_alone(text: str) -> None:
         '<?xml version="1.0" encoding="-x"?><launch/>',
         '<?xml version="1.0" encoding="é"?><launch></launch>',
         "<launch><group><group></group></group></launch>",
-        "<launch><node exec='a'><!-- </node> --></node></launch>",
         "<launch><node exec='a'/>",
         "",
     ],
 )
 def test_xml_that_takes_a_closer_look_is_left_alone(text: str) -> None:
     assert not _compare(text, xml_items, xml_file)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "<launch><node exec='a'><!-- </node> --></node></launch>",
+        "<launch><group><group><node exec='a'/></group><!-- b --></group ></launch >\n",
+        "<launch>\n<node\n  exec = 'a'\n  name=\"b's\" namespace='\"'\n/>\n</launch>",
+        "<launch><node exec=\"a\" if=\"$(eval '1 &lt; 2 and &quot;&amp;&quot;')\" output='screen'/></launch>",
+        '<launch><log message="&gt;"/><log message=""/><log message="it\'s"/><log message="$(var a) &amp;"/></launch>',
+        "<launch></launch>",
+    ],
+)
+def test_xml_that_is_plain_takes_no_closer_look(text: str) -> None:
+    assert _compare(text, xml_items, xml_file)
 
 
 def test_a_block_of_the_wrong_kind_in_a_long_file_is_left_to_the_ordinary_way() -> None:

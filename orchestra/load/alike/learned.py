@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
-from typing import Final
+from typing import Any, Final
 
 from orchestra.dataclass import dataclass
 from orchestra.description.entity import Action
@@ -29,6 +29,7 @@ FEW: Final = 12
 SHORT: Final = 2_000
 LONG: Final = 8
 _LATER: Final = 4
+UNKNOWN: Final = 0
 _MOST_ALIKE: Final = 8
 _MOST: Final = 100
 # So many forms that have been seen too seldom are counted.
@@ -37,6 +38,18 @@ _MOST_COUNTED: Final = 2_000
 
 class UnlikeError(Exception):
     """A value is not one of those that can be told by their characters alone."""
+
+
+@dataclass(slots=True)
+class Item:
+    """A stretch of a file that holds one action, and how it begins: actions of one form begin alike.
+
+    Where its end is `UNKNOWN`, whoever reads it finds it.
+    """
+
+    begin: int
+    end: int
+    beginning: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,13 +80,13 @@ class Forms:
     few: int = FEW
     short: int = SHORT
     known: dict[str, list[Form]] = field(default_factory=dict)
-    _counted: dict[tuple[str, ...], tuple[int, int]] = field(default_factory=dict)
+    _counted: dict[tuple[Any, ...], tuple[int, int]] = field(default_factory=dict)
 
-    def worth(self, words: tuple[str, ...], weight: int) -> bool:
+    def worth(self, words: tuple[Any, ...], weight: int) -> bool:
         """Count an action of a form that is not known; tell whether it is time to learn it."""
         if len(self._counted) >= _MOST_COUNTED:
             self._counted.clear()
-        count, enough = self._counted.get(words) or (0, self.few + self.short // len(words) ** 2)
+        count, enough = self._counted.get(words) or (0, self.few + self.short // _length(words) ** 2)
         count += weight
         due = count >= enough
         self._counted[words] = (count, enough * _LATER if due else enough)
@@ -86,10 +99,18 @@ class Forms:
         del alike[_MOST_ALIKE:]
 
 
-def action_of(forms: list[Form] | None, whole: Source, begin: int, end: int, reader: Reader) -> Action | None:
-    """Return the action that stands between two offsets, where it is of one of these forms."""
+def _length(words: tuple[Any, ...]) -> int:
+    """Return of how many words an action is, those of each of its tags counted."""
+    return sum(1 if isinstance(word, str) else len(word) for word in words)
+
+
+def action_of(forms: list[Form] | None, whole: Source, item: Item, reader: Reader) -> Action | None:
+    """Return the action of a stretch, where it is of one of these forms."""
+    begin, end = item.begin, item.end
     for form in forms or ():
-        match = form.pattern.fullmatch(whole.text, begin, end)
+        pattern = form.pattern
+        match = pattern.fullmatch(whole.text, begin, end) if end else pattern.match(whole.text, begin)
         if match is not None:
+            item.end = match.end()
             return form.make(whole, match, reader)
     return None

@@ -5,7 +5,6 @@ from __future__ import annotations
 from contextlib import suppress
 from typing import TYPE_CHECKING, Any, Protocol
 
-from orchestra.dataclass import dataclass
 from orchestra.description.actions import model_of
 from orchestra.description.source import Keyed
 from orchestra.errors import Problems
@@ -18,17 +17,8 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from orchestra.description.entity import Action
-    from orchestra.load.alike.learned import Manner
+    from orchestra.load.alike.learned import Item, Manner
     from orchestra.load.offsets import Source
-
-
-@dataclass(slots=True)
-class Item:
-    """A stretch of a file that holds one action, and how it begins: actions of one form begin alike."""
-
-    begin: int
-    end: int
-    beginning: str
 
 
 class Format(Protocol):
@@ -38,15 +28,18 @@ class Format(Protocol):
     FORMS: Forms
 
     @staticmethod
-    def items(whole: Source) -> Iterable[Item] | None:
-        """Return the stretches, in order and with nothing but blanks and comments between them; None as `actions`."""
+    def items(whole: Source) -> Iterable[Item]:
+        """Return the stretches, in order and with nothing but blanks and comments between them.
+
+        Raises `UnlikeError` for any other file.
+        """
 
     @staticmethod
     def tree(whole: Source, item: Item, reader: Reader) -> Any | None:  # noqa: ANN401 - a tree
         """Return the tree of the one action of a stretch; None where there is something else."""
 
     @staticmethod
-    def straight(whole: Source, item: Item, reader: Reader) -> tuple[Action, tuple[str, ...]] | None:
+    def straight(whole: Source, item: Item, reader: Reader) -> tuple[Action, tuple[Any, ...]] | None:
         """Return the action of a stretch, where it is plain to see, and what tells its form, as `words`."""
 
     @staticmethod
@@ -59,17 +52,17 @@ def actions(written: Format, whole: Source, around: Reader) -> tuple[Action, ...
 
     Nothing is reported to the reader `around`: whoever reads the file in the ordinary way finds it again.
     """
-    items = written.items(whole)
-    if items is None:
-        return None
     reader = Reader(Problems(), around.included_from, whole.text)
     known, found = written.FORMS.known, []
-    for item in items:
-        action = action_of(known.get(item.beginning), whole, item.begin, item.end, reader)
-        action = action or _read(written, whole, item, reader)
-        if action is None:
-            return None
-        found.append(action)
+    try:
+        for item in written.items(whole):
+            action = action_of(known.get(item.beginning), whole, item, reader)
+            action = action or _read(written, whole, item, reader)
+            if action is None:
+                return None
+            found.append(action)
+    except UnlikeError:
+        return None
     return None if len(reader.problems) else tuple(found)
 
 

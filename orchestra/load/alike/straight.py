@@ -24,11 +24,11 @@ from orchestra.description.text import Items, matched_words
 from orchestra.load.alike.learned import UnlikeError
 from orchestra.load.alike.making import literal, template
 from orchestra.load.keys import spelled
-from orchestra.location import Places
 
 if TYPE_CHECKING:
     from orchestra.description.text import Template
     from orchestra.load.reader import Reader
+    from orchestra.location import Matched, Places
 
 # A text, the number of its place, and whether it is in quotes. One with escapes in it is `Written`.
 Scalar: TypeAlias = tuple[str, int, bool]
@@ -56,7 +56,7 @@ class Series:
         self.head = head
 
 
-_Read: TypeAlias = Callable[[Any, Places, "Reader"], Any]
+Read: TypeAlias = Callable[[Any, Any, "Reader"], Any]
 
 
 _MOST_KEPT: Final = 2_000
@@ -77,7 +77,7 @@ class Way:
     """How what stands behind a key is read, for which field; `model` is that of the parts where they have one."""
 
     name: str
-    read: _Read
+    read: Read
     kind: Kind
     model: type[Entity] | None
 
@@ -108,15 +108,18 @@ class Model:
             raise UnlikeError
         return way
 
-    def made(self, values: dict[str, Any], places: Places, head: int) -> Any:  # noqa: ANN401 - an entity
-        """Return the entity with these values of fields, which stands at a place.
+    def made(
+        self, values: dict[str, Any], places: Matched, head: int, together: tuple[str, ...] | None = None
+    ) -> Any:  # noqa: ANN401 - an entity
+        """Return the entity with these values of fields, which stands at a place; `together` are the fields, if known.
 
         Raises `UnlikeError` where it lacks one, or has some that cannot stand together.
         """
         entity: Any = _new(self.model)
         set_values(entity, self.unwritten | values)
         set_beside(entity, {"span": None, "at": (places, head)})
-        together = tuple(values)
+        if together is None:
+            together = tuple(values)
         if together not in self.fit:
             self._check(entity, together)
         return entity
@@ -190,7 +193,7 @@ def _way(name: str, annotation: Any) -> Way:  # noqa: ANN401 - a type
     return Way(name, read, Kind.OTHER, None)
 
 
-def _reading(annotation: Any) -> _Read:  # noqa: ANN401 - a type
+def _reading(annotation: Any) -> Read:  # noqa: ANN401 - a type
     """Return what reads values of a type; what refuses all of them for one that takes a closer look."""
     origin, inner = get_origin(annotation), get_args(annotation)
     if origin in (Union, UnionType):
@@ -205,7 +208,7 @@ def _reading(annotation: Any) -> _Read:  # noqa: ANN401 - a type
     return _refused
 
 
-def _marked(source: Any, marks: tuple[Any, ...]) -> _Read:  # noqa: ANN401 - a type, and marks
+def _marked(source: Any, marks: tuple[Any, ...]) -> Read:  # noqa: ANN401 - a type, and marks
     for mark in marks:
         if isinstance(mark, Plain):
             return _WAYS.get(mark.read) or partial(_checked, mark.read)
@@ -262,7 +265,7 @@ def _checked(read: Callable[[Any, Any], Any], written: Any, places: Places, read
         raise UnlikeError from None
 
 
-def _items(read: _Read, written: Any, places: Places, reader: Reader) -> tuple[Any, ...]:  # noqa: ANN401 - as above
+def _items(read: Read, written: Any, places: Places, reader: Reader) -> tuple[Any, ...]:  # noqa: ANN401 - as above
     if type(written) is not Series:
         raise UnlikeError
     return tuple([read(item, places, reader) for item in written.items])
@@ -272,7 +275,7 @@ def _reads(annotation: Any) -> Any:  # noqa: ANN401 - a type, a function
     return next(mark.read for mark in get_args(annotation) if isinstance(mark, Plain))
 
 
-_WAYS: Final[dict[Any, _Read]] = {
+_WAYS: Final[dict[Any, Read]] = {
     _reads(Text): _text,
     _reads(Literal): _literal,
     _reads(Argv): _text_or_list,

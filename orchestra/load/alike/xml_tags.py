@@ -1,27 +1,32 @@
 """Actions in XML as nearly all are: tags with attributes, of texts that mean the same to every reader of XML.
 
-What an element means is told by the model that it belongs to, as in `xml_file`. Anything that is not plain to see takes
-a parser.
+What an element means is told by the model that it belongs to, as in `xml_file`. One expression tells a tag. What is
+between the values of its attributes, its name among it, is looked up, for in a launch file few tags differ in that.
+Anything that is not plain to see takes a parser.
 """
 
 from __future__ import annotations
 
 import re
-from operator import attrgetter
-from typing import TYPE_CHECKING, Any, Final
+from functools import cache, partial
+from itertools import count, islice
+from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
+from orchestra.dataclass import dataclass
+from orchestra.description.entity import Entity
+from orchestra.description.source import Written
+from orchestra.description.text import matched_words
 from orchestra.load.alike.learned import UnlikeError
 from orchestra.load.alike.making import template
-from orchestra.load.alike.straight import action_model, how
-from orchestra.load.elements import Attribute
+from orchestra.load.alike.straight import Model, Read, Way, action_model, how
+from orchestra.load.elements import spans_in
 from orchestra.load.forms import Kind, forms_of
-from orchestra.location import GROUPS, Places
+from orchestra.location import Matched, Span, stretch
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
     from orchestra.description.entity import Action
-    from orchestra.description.source import Written
-    from orchestra.load.alike.straight import Model, Scalar
-    from orchestra.load.forms import Forms
     from orchestra.load.offsets import Source
     from orchestra.load.reader import Reader
 
@@ -29,119 +34,242 @@ _DEEPEST: Final = 20
 _BLANK: Final = r"[ \t\r\n]"
 # With what stands for characters that would mean something else, as expressions have it.
 _NAMED: Final = r"&(?:quot|apos|lt|gt|amp);"
-_VALUE: Final = rf"""(?:"((?:[ !#-%'-;=-~]++|{_NAMED})*+)"|'((?:[ -%(-;=-~]++|{_NAMED})*+)')"""
-_PAIR: Final = rf"{_BLANK}++([A-Za-z_][A-Za-z0-9_.-]*+){_BLANK}*+={_BLANK}*+{_VALUE}"
+_DOUBLE: Final = rf'"(?:[ !#-%\'-;=-~]++|{_NAMED})*+"'
+_SINGLE: Final = rf"'(?:[ -%(-;=-~]++|{_NAMED})*+'"
+# Such as have neither calls nor escapes in them, are not empty and end with no quote.
+_WORDS: Final = r"""\"[ !#%')-;=-[\]-~]++(?<!')\""""
+_KEY: Final = rf"{_BLANK}++[A-Za-z_][A-Za-z0-9_.-]*+{_BLANK}*+={_BLANK}*+"
 _COMMENT: Final = r"<!--(?:(?!--)[\t\r\n -~\xa0-\xff])*+-->"
+_NAME: Final = "[A-Za-z][A-Za-z0-9_-]*+"
+_CLOSED: Final = rf"{_BLANK}*+/?+"
+# What stands in a tag: with attributes of words, or none, or what it closes; with others in double quotes; with any.
 _TAG: Final = re.compile(
-    rf"<(/?)([A-Za-z][A-Za-z0-9_-]*+)((?:{_PAIR})*+){_BLANK}*+(/?)>(?:{_BLANK}++|{_COMMENT})*+|([^<]|<)"
+    rf"(?:{_BLANK}++|{_COMMENT})*+(?:<(?:({_NAME}(?:{_KEY}{_WORDS})*+{_CLOSED}|/{_NAME}{_BLANK}*+)>"
+    rf"|({_NAME}(?:{_KEY}{_DOUBLE})*+{_CLOSED})>|({_NAME}(?:{_KEY}(?:{_DOUBLE}|{_SINGLE}))*+{_CLOSED})>)|[^<]++|<)"
 )
-_ATTRIBUTE: Final = re.compile(_PAIR)
+_VALUE: Final = re.compile(r"""[ \t\r\n]*+=[ \t\r\n]*+(?:"([^"]*+)"|'([^']*+)')""")
+_QUOTED: Final = re.compile("""\"([^"]*+)\"|'([^']*+)'""")
+_NAMES: Final = re.compile(r"[^ \t\r\n=/>]+")
 _ENTITY: Final = re.compile("&([a-z]+);")
 _CHARACTERS: Final = {"quot": '"', "apos": "'", "lt": "<", "gt": ">", "amp": "&"}
-_last_group: Final = attrgetter("lastindex")
 _CHILDREN: Final = "children"
-_IN_DOUBLE, _IN_SINGLE = 2, 3  # groups of an attribute
-_CLOSING, _NAME, _PAIRS, _EMPTY, _ODD = 1, 2, 3, 7, 8
+_INSIDE: Final = 8  # bits of a number that tell what of a tag is meant: its name, or which of its attributes
+_MOST: Final = (1 << _INSIDE) - 1
+_MOST_KEPT: Final = 2_000
+
+# What is between the values of a tag.
+_Between: TypeAlias = tuple[str, ...]
 
 
-def read(whole: Source, begin: int, end: int, reader: Reader) -> tuple[Action, tuple[str, ...]] | None:
-    """Return the action that is the one element between two offsets, and what tells its form.
+@dataclass(frozen=True, slots=True)
+class _Shape:
+    """What a tag says whose values stand between the same: the name of its element, and of which model that is.
+
+    `fields` are those of its attributes, `reads` how these are read that are no mere `texts`. `part` is the field of
+    the element around that it belongs to.
+    """
+
+    model: Model
+    inside: _Inside | None
+    name: str
+    fields: tuple[str, ...]
+    reads: tuple[Read | None, ...]
+    texts: bool
+    part: str
+
+
+@dataclass(frozen=True, slots=True)
+class _Inside:
+    """What may stand in an element: parts, with their models and fields, and actions; and tags as seen so far.
+
+    `single` are fields of parts of which there is one, `others` keys of its model that are no such parts.
+    """
+
+    parts: dict[str, tuple[type[Entity], str]]
+    single: frozenset[str]
+    others: frozenset[str]
+    holds_actions: bool
+    shapes: dict[_Between, _Shape]
+
+    def put(self, found: dict[str, list[Any]], values: dict[str, Any]) -> None:
+        """Add what has been found in such an element to its values."""
+        if self.holds_actions and _CHILDREN not in found:
+            raise UnlikeError
+        for part, made in found.items():
+            if part in values or (len(made) > 1 and part in self.single):
+                raise UnlikeError
+            values[part] = made[0] if part in self.single else tuple(made)
+
+    def shape(self, between: _Between) -> _Shape:
+        """Return what a tag says in such an element, and keep it. Raises `UnlikeError`."""
+        name, *keys = _NAMES.findall(" ".join(between)) or ("",)
+        part = self.parts.get(name)
+        if part is None and (name in self.others or not self.holds_actions):
+            raise UnlikeError
+        model, field = (action_model(name), _CHILDREN) if part is None else (how(part[0]), part[1])
+        forms, ways = forms_of(model.model), dict[str, Way]()
+        for key in keys:
+            if key not in forms.texts or len(ways) == _MOST:
+                raise UnlikeError
+            way = model.way(key, ways)
+            ways[way.name] = way
+        empty = between[-1].endswith("/")
+        if empty and forms.holds_actions:
+            raise UnlikeError
+        reads = tuple(
+            [None if key in model.texts else ways[own].read for key, own in zip(keys, ways, strict=True)]
+        )
+        inside = None if empty else _inside(model.model)
+        shape = _Shape(model, inside, name, tuple(ways), reads, not any(reads), field)
+        if len(self.shapes) < _MOST_KEPT:
+            self.shapes[between] = shape
+        return shape
+
+
+@cache
+def _inside(model: type[Entity]) -> _Inside:
+    ways, forms, parts, single = how(model).ways, forms_of(model), {}, set[str]()
+    for key, form in forms.by_key.items():
+        way = ways[key]
+        if way.model is not None and way.model is form.model and not form.or_variables:
+            parts[key] = way.model, way.name
+            if form.kind is not Kind.PARTS:
+                single.add(way.name)
+    others = frozenset(forms.by_key.keys() - parts)
+    return _Inside(parts, frozenset(single), others, forms.holds_actions, {})
+
+
+_ROOT: Final = _Inside({}, frozenset(), frozenset(), holds_actions=True, shapes={})
+
+
+class _Tags(Matched):
+    """Where tags and what is in them stand: a number tells the tag, and in its last bits which attribute, if any."""
+
+    __slots__ = ("_begin", "_tags", "_text")
+
+    def __init__(self, whole: Source, begin: int) -> None:
+        self.whole = whole
+        self._spans = {}
+        self._text, self._begin = whole.text, begin
+        self._tags: list[re.Match[str]] = []
+
+    def span(self, group: int) -> Span:
+        """Return the place with a number."""
+        span = self._spans.get(group)
+        if span is None:
+            begin, end = self.value(group) if group & _MOST else self._name(group)
+            span = self._spans[group] = stretch(self.whole, begin, end)
+        return span
+
+    def value(self, number: int) -> tuple[int, int]:
+        """Return the offsets of an attribute's value, inside of its quotes."""
+        pairs = _VALUE.finditer(self._text, self._name(number)[1])
+        pair = next(islice(pairs, (number & _MOST) - 1, None))
+        return pair.span(pair.lastindex or 0)
+
+    def _name(self, number: int) -> tuple[int, int]:
+        """Return the offsets of the name of a tag."""
+        at = number >> _INSIDE
+        if at >= len(self._tags):
+            self._tags = list(islice(_TAG.finditer(self._text, self._begin), 2 * at + 1))
+        tag = self._tags[at]
+        begin = tag.start(tag.lastindex or 0)
+        return begin, _NAMES.match(self._text, begin).end()  # type: ignore[union-attr]  # a tag has a name
+
+
+def read(whole: Source, begin: int, reader: Reader) -> tuple[Action, tuple[_Between, ...], int] | None:
+    """Return the action that is the element at an offset, what tells its form, and the offset behind it.
 
     None where it takes a parser, or a closer look.
     """
-    tags = list(_TAG.finditer(whole.text, begin, end))
-    if _ODD in map(_last_group, tags):
-        return None
-    scan = _Scan(whole, tags, reader)
+    scan, values = _Scan(whole, begin, reader), dict[str, Any]()
     try:
-        action = scan.action(0)
-    except (UnlikeError, IndexError):  # the end where something has to follow
+        scan.content(_ROOT, None, values, 0)
+    except UnlikeError:
         return None
-    return (action, tuple(scan.words)) if scan.tag == len(tags) else None
+    return values[_CHILDREN][0], tuple(scan.words), scan.end
 
 
 class _Scan:
-    """Goes through tags; `tag` is the number of the next one. `words` are the names, which show the form."""
+    """Goes through tags; `end` is the offset behind the last one. `words` is what they have looked like."""
 
-    __slots__ = ("places", "reader", "tag", "tags", "text", "whole", "words")
+    __slots__ = ("around", "end", "places", "reader", "tags", "whole", "words")
 
-    def __init__(self, whole: Source, tags: list[re.Match[str]], reader: Reader) -> None:
+    def __init__(self, whole: Source, begin: int, reader: Reader) -> None:
         self.whole = whole
         self.reader = reader
-        self.text = whole.text
-        self.tags = tags
-        self.tag = 0
-        self.places = Places(whole, [*tags])
-        self.words: list[str] = []
+        self.tags: Iterator[tuple[int, re.Match[str]]] = enumerate(_TAG.finditer(whole.text, begin))
+        self.end = begin
+        self.around = stretch(whole, begin, begin)
+        self.places = _Tags(whole, begin)
+        self.words: list[_Between] = []
 
-    def action(self, depth: int) -> Action:
-        """Return the action that begins with the next tag."""
+    def content(self, inside: _Inside, name: str | None, values: dict[str, Any], depth: int) -> None:
+        """Add what stands in an element to its values, up to the tag that closes it; without a name, one element."""
         if depth > _DEEPEST:
             raise UnlikeError
-        action: Action = self.entity(action_model(self.tags[self.tag][_NAME]), depth)
-        return action
-
-    def entity(self, model: Model, depth: int) -> Any:  # noqa: ANN401 - an entity
-        """Return what the element says that begins with the next tag, and its model knows."""
-        number = self.tag
-        tag, forms, words, places = self.tags[number], forms_of(model.model), self.words, self.places
-        if tag[_CLOSING]:
-            raise UnlikeError
-        self.tag = number + 1
-        name = tag[_NAME]
-        words.append(name)
-        values: dict[str, Any] = {}
-        told = places.told
-        for pair in _ATTRIBUTE.finditer(self.text, *tag.span(_PAIRS)):
-            key, double, single = pair.groups()
-            if key not in forms.texts:
-                raise UnlikeError
-            words.append(key)
-            text, group = (double, _IN_DOUBLE) if single is None else (single, _IN_SINGLE)
-            field = model.texts.get(key)
-            if field is not None and field not in values and "&" not in text:
-                told.append(pair)
-                values[field] = template(text, places, len(told) - 1 << GROUPS | group, False, self.reader)
-                continue
-            way = model.way(key, values)
-            values[way.name] = way.read(self.attribute(pair, key, text, group), places, self.reader)
-        if not tag[_EMPTY]:
-            self.children(name, model, forms, values, depth)
-        elif forms.holds_actions:
-            raise UnlikeError
-        return model.made(values, places, number << GROUPS | _NAME)
-
-    def attribute(self, pair: re.Match[str], key: str, text: str, group: int) -> Scalar | Written:
-        """Return the value of an attribute."""
-        if "&" not in text:
-            return text, self.places.add(pair) | group, False
-        value = _ENTITY.sub(lambda found: _CHARACTERS[found[1]], text)
-        return Attribute(key, value, pair.start(1), *pair.span(group)).written(self.whole)
-
-    def children(self, name: str, model: Model, forms: Forms, values: dict[str, Any], depth: int) -> None:
-        """Add what stands in an element, up to the tag that closes it."""
-        actions: list[Action] = []
-        lists: dict[str, list[Any]] = {}
-        while not (tag := self.tags[self.tag])[_CLOSING]:
-            key = tag[_NAME]
-            form = forms.by_key.get(key)
-            if form is None and forms.holds_actions:
-                actions.append(self.action(depth + 1))
-                continue
-            if form is None or form.or_variables or depth > _DEEPEST:
-                raise UnlikeError
-            way = model.way(key, values)
-            if way.model is None or way.model is not form.model:
-                raise UnlikeError
-            part = self.entity(how(way.model), depth + 1)
-            if form.kind is Kind.PARTS:
-                lists.setdefault(way.name, []).append(part)
+        shapes, words = inside.shapes, self.words
+        found: dict[str, list[Any]] = {}
+        for number, tag in self.tags:
+            plain, double, other = tag.groups()
+            pieces = (plain or double or "").split('"') if other is None else _pieces(other)
+            between = tuple(pieces[::2])
+            shape = shapes.get(between)
+            if shape is None:
+                if pieces[0][:1] == "/":
+                    break
+                shape = inside.shape(between)
+            words.append(between)
+            made = self.entity(shape, plain is not None, pieces[1::2], number << _INSIDE, depth)
+            if shape.part in found:
+                found[shape.part].append(made)
             else:
-                values[way.name] = part
-        if tag[_NAME] != name or tag[_PAIRS] or tag[_EMPTY] or (forms.holds_actions and not actions):
+                found[shape.part] = [made]
+            if name is None:
+                break
+        else:
             raise UnlikeError
-        self.tag += 1
-        for field, parts in lists.items():
-            values[field] = tuple(parts)
-        if forms.holds_actions:
-            values[model.way(_CHILDREN, values).name] = tuple(actions)
+        if name is not None and pieces[0][1:].rstrip() != name:
+            raise UnlikeError
+        self.end = max(self.end, tag.end())
+        inside.put(found, values)
+
+    def entity(self, shape: _Shape, plain: bool, texts: Sequence[str], head: int, depth: int) -> Any:  # noqa: ANN401 - an entity
+        """Return what an element says, whose start tag has these values; `plain` if these are words."""
+        places = self.places
+        if plain and shape.texts:
+            values: dict[str, Any] = {
+                field: matched_words(text, False, places, at)
+                for field, text, at in zip(shape.fields, texts, count(head + 1))
+            }
+        else:
+            values, reader = {}, self.reader
+            for field, read, text, at in zip(shape.fields, shape.reads, texts, count(head + 1)):
+                if "&" in text:
+                    written = self.named(text, at)
+                    values[field] = (
+                        reader.template(written) if read is None else read(written, places, reader)
+                    )
+                elif read is None:
+                    values[field] = template(text, places, at, False, reader)
+                else:
+                    values[field] = read((text, at, False), places, reader)
+        if shape.inside is None:
+            return shape.model.made(values, places, head, shape.fields)
+        self.content(shape.inside, shape.name, values, depth + 1)
+        return shape.model.made(values, places, head)
+
+    def named(self, text: str, at: int) -> Written:
+        """Return the value of an attribute in which something stands for other characters."""
+        value = _ENTITY.sub(_character, text)
+        return Written(value, self.around, spans_in(self.whole, partial(self.places.value, at)))
+
+
+def _character(named: re.Match[str]) -> str:
+    return _CHARACTERS[named[1]]
+
+
+def _pieces(pairs: str) -> list[str]:
+    """Return the values in a tag, and what is between them, in turn."""
+    pieces = _QUOTED.split(pairs)
+    return [piece for piece in pieces if piece is not None]

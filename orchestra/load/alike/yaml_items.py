@@ -10,8 +10,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING, Any, Final
 
-from orchestra.load.alike.learned import Forms, Manner
-from orchestra.load.alike.one_by_one import Item
+from orchestra.load.alike.learned import Forms, Item, Manner, UnlikeError
 from orchestra.load.alike.yaml_entities import read
 
 if TYPE_CHECKING:
@@ -46,12 +45,12 @@ _DEPTH: Final = 2  # a list that stands behind the key of a mapping
 FORMS: Final = Forms()
 
 
-def items(whole: Source) -> list[Item] | None:
-    """Return the items of the list behind the only key; None where the file is anything else."""
+def items(whole: Source) -> list[Item]:
+    """Return the items of the list behind the only key. Raises `UnlikeError` where the file is anything else."""
     text = whole.text
     head = _HEAD.match(text)
     if head is None:
-        return None
+        raise UnlikeError
     begin, following = head.end(), re.compile(rf"\n {{{len(head[1])}}}- ")
     begins = [begin, *(found.start() + 1 for found in following.finditer(text, begin))]
     ends = [begin + len(head[1]) for begin in begins[1:]]
