@@ -47,6 +47,8 @@ def _made(meant: str, message: str) -> str:
 
 def _parts(texts: dict[str, Span], made: str, meant: str) -> Iterator[tuple[Span, str]]:
     for text, span in texts.items():
+        if not text:  # it is in any text
+            continue
         begin, is_there, end = made.partition(text)
         kept = len(begin) + len(end)
         # Where nothing is kept, the text that is told may be any other that stands there.

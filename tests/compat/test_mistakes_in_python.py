@@ -47,6 +47,13 @@ class Mistake:
 
 
 _CALLS = {
+    "a text that is put together of an empty one and another": Mistake(
+        "[DeclareLaunchArgument('mode', default_value='sim', choices=['sim', 'real']), LogInfo(msg='x', condition="
+        "IfCondition(EqualsSubstitution(LaunchConfiguration('mode'), '' + '«rael»')))]",
+        "'mode' is sim, real, not 'rael': this is never true",
+        Code.IMPOSSIBLE_CONDITION,
+        "real",
+    ),
     "a keyword that nobody takes": Mistake(
         "[Node(package='demo', «exectuable»='talker')]",
         "Node has no argument 'exectuable'",
