@@ -200,6 +200,15 @@ def test_a_list_that_is_kept_is_one_of_its_own() -> None:
     assert [item.text for item in kept.expression] == ["1", " < 2"]
 
 
+@pytest.mark.parametrize("kind", [EqualsSubstitution, NotEqualsSubstitution])
+@pytest.mark.parametrize("side", [["r1"], ["r", "1"], []])
+def test_a_list_of_texts_alone_is_a_value_that_is_compared_as_it_is_shown(kind: Any, side: list[str]) -> None:
+    with collecting(Problems(), ()):
+        made, kept = [kind(side, LaunchConfiguration("robot")) for _ in range(2)]
+    assert made._whole() == kept._whole()
+    assert [item.text for item in kept.left] == [str(side)]
+
+
 def test_a_subclass_of_a_launch_file_is_constructed() -> None:
     with collecting(Problems(), ()):
         made = [_Shouting("1") for _ in range(3)]

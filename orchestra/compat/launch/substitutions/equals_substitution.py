@@ -32,6 +32,8 @@ class EqualsSubstitution(TwoSided):
     def _keep(self, arguments: tuple[Any, ...], keywords: dict[str, Any]) -> bool:
         if all(type(side) is str for side in arguments):
             return False  # of which there may be something to tell
+        if any(type(side) is list and not is_substitution(side) for side in arguments):
+            return False  # its `str` counts
         return super()._keep(arguments, keywords)
 
 
