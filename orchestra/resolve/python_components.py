@@ -72,12 +72,15 @@ def _registered(package: str, plugin: str, run: Resolution) -> str | None:
     return meant if meant is not None and is_slip(plugin, meant) else None
 
 
-def _components_of(package: str, run: Resolution) -> list[str]:
+def _components_of(package: str, run: Resolution) -> tuple[str, ...]:
     """Return the names of the components in C++ that a package registers; none where it is not here."""
     prefix = run.context.packages.prefix(package)
     if prefix is None:
-        return []
-    return once(("registered", package, str(prefix)), lambda: registered_by(package, Path(prefix)))
+        return ()
+    key = ("registered", package, str(prefix))
+    if key not in run.components:
+        run.components[key] = tuple(once(key, lambda: registered_by(package, Path(prefix))))
+    return run.components[key]
 
 
 def _check_registered(package: str, plugin: Value, pkg: Template, run: Resolution) -> Value | Poison:
