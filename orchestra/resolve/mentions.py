@@ -222,8 +222,12 @@ def templates_of(entity: Entity) -> list[Template]:
     """Return the texts of an entity, those of the entities in it left out."""
     found: list[Template] = []
     for value in vars(entity).values():
+        if value is None:
+            continue
         if isinstance(value, Template):
             found.append(value)
+        elif type(value) is tuple:
+            found += [text for text in value if isinstance(text, Template)]
         elif type(value) not in _PLAIN:
             for item in value.values() if isinstance(value, dict) else (value,):
                 found += (
