@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
 from orchestra.compat.launch.substitutions.launch_configuration import PERFORM, LaunchConfiguration
 from orchestra.compat.launch_ros.call_code import Code, targets
-from orchestra.compat.launch_ros.call_texts import Read, Texts, is_mixed, is_plain, sure
+from orchestra.compat.launch_ros.call_texts import Read, Texts, is_mixed, is_plain, mixed, sure
 from orchestra.compat.launch_ros.parameter_descriptions import ParameterFile
 from orchestra.compat.launch_ros.plain_parameters import (
     NO_PARAMETER,
@@ -26,7 +26,6 @@ from orchestra.compat.launch_ros.plain_parameters import (
 )
 from orchestra.compat.launch_ros.plain_texts import (
     UnusualError,
-    composed,
     copied,
     entity,
     left,
@@ -241,13 +240,13 @@ _NAMES: Final[dict[str, Any]] = {
     "Param": Param,
     "Remap": Remap,
     "around": ((), "", ""),
-    "composed": composed,
     "copied": copied,
     "entity": entity,
     "entries": entries,
     "file_of": file_of,
     "held_of": held_of,
     "late": late,
+    "mixed": mixed,
     "parameter_of": parameter_of,
     "perform": PERFORM,
     "plain_text": plain_text,

@@ -6,12 +6,15 @@ from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
 from orchestra.compat.launch.substitutions.launch_configuration import LaunchConfiguration
 from orchestra.compat.launch_ros.plain_texts import UnusualError
+from orchestra.compat.text import Composed, Listed
+from orchestra.dataclass import maker
+from orchestra.description.text import matched_template
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from orchestra.compat.launch_ros.call_code import Code
-    from orchestra.compat.place import Way
+    from orchestra.compat.place import Arguments, Way
     from orchestra.description.text import Template
 
     _Path: TypeAlias = tuple[Way, ...]
@@ -51,17 +54,24 @@ class Texts:
 
     def _mixed(self, level: int, var: str, value: Sequence[Any], path: _Path) -> Read:
         """Read several texts and variables as one text."""
-        skeleton, items = [], self._code.items(level, var, value)
+        skeleton, raw, pieces, names = [], "", "", ""
+        items = self._code.items(level, var, value)
         for item_var, item in items:
             skeleton.append(self._code.leaf(item_var))
-            self._code.exactly(level + 1, item_var, type(item))
             if type(item) is str:
+                self._code.exactly(level + 1, item_var, str)
                 self._code.texts.append(item_var)
                 self._code.needed.append(item_var)
-        made = self._code.new(1)[0]
+                raw += f"{{{item_var}}}"
+                pieces += f"{item_var}, "
+            else:
+                whole = self._variable(level + 1, item_var)
+                raw += f"{{{whole}.raw}}"
+                pieces += f"*{whole}.pieces.pieces, "
+                names += f"*{whole}.pieces.variables, "
         given = "".join(f"{item_var}, " for item_var, _ in items)
-        self._code.others.append(f"{made} = composed(({given}), call, {self._code.constant(path)})")
-        self._code.leaf(made)
+        at = self._code.constant(path)
+        made = f'mixed(f"{raw}", ({pieces}), ({names}), ({given}), call, {at})'
         return tuple(skeleton) if type(value) is tuple else skeleton, made
 
     def _variable(self, level: int, var: str) -> str:
@@ -71,6 +81,19 @@ class Texts:
         self._code.variables.append(f"{made} = {var}._sure or sure({var})")
         self._code.leaf(made)
         return made
+
+
+def mixed(
+    raw: str,
+    pieces: tuple[Any, ...],
+    names: tuple[str, ...],
+    items: tuple[Any, ...],
+    call: Arguments,
+    path: _Path,
+) -> Template:
+    """Return several texts and variables as the text that an argument of a call holds."""
+    made = _new_composed(pieces, names, None, raw, ())
+    return matched_template(raw, False, Listed(call, items), path, made)  # type: ignore[arg-type] # its groups are paths
 
 
 def known(variable: LaunchConfiguration) -> Template | None:
@@ -106,5 +129,6 @@ def is_mixed(value: Any) -> bool:
     )
 
 
+_new_composed: Final = maker(Composed)
 _SERIES: Final = frozenset({list, tuple})
 _SEVERAL: Final = 2
