@@ -46,11 +46,13 @@ def collecting(problems: Problems, chain: tuple[Span, ...]) -> Iterator[None]:
 def standing(place: Place) -> Iterator[None]:
     """Let what is made for a while stand at a place: it makes up for what has not been made there."""
     stands.append(place)
+    before = _constructing.copy()
     _constructing.clear()
     try:
         yield
     finally:
         stands.pop()
+        _constructing.update(before)
 
 
 def collector() -> tuple[Problems, tuple[Span, ...]] | None:
@@ -139,18 +141,15 @@ def _refusing(constructor: Callable[..., None]) -> Callable[..., None]:
     def construct(self: Any, *arguments: Any, **keywords: Any) -> None:
         caller = sys._getframe(1)
         code = caller.f_code
-        if id(code) in _constructing:
-            keep = _keeping.get(type(self))
-            if keep is not None and keep(self, arguments, keywords):
-                self._made_at = code, caller.f_lasti
+        if id(code) not in _constructing:
+            if not _collectors or is_ours(caller):
+                constructor(self, *arguments, **keywords)
                 return
-        elif not _collectors or is_ours(caller):
-            constructor(self, *arguments, **keywords)
+            _note(code)
+        keep = _keeping.get(type(self))
+        if keep is not None and id(code) in _constructing and keep(self, arguments, keywords):
+            self._made_at = code, caller.f_lasti
             return
-        elif code.co_name != "__init__" and not stands and not is_own(code.co_filename):
-            if len(_constructing) >= _MOST_CODES:
-                _constructing.clear()
-            _constructing[id(code)] = code
         try:
             if arguments or not self._taken(keywords, caller):
                 called[0] = self, caller
@@ -165,3 +164,11 @@ def _refusing(constructor: Callable[..., None]) -> Callable[..., None]:
                 raise
 
     return construct
+
+
+def _note(code: CodeType) -> None:
+    """Note that a code of a launch file constructs things, where all of them stand in it."""
+    if code.co_name != "__init__" and not stands and not is_own(code.co_filename):
+        if len(_constructing) >= _MOST_CODES:
+            _constructing.clear()
+        _constructing[id(code)] = code

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from collections.abc import Set as AbstractSet
+from itertools import repeat
 from operator import attrgetter
 from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
@@ -41,7 +42,10 @@ _SEVERAL: Final = 2
 _MOST: Final = 4096
 _VARIABLE, _PATH = "var", "path-join"
 # Kinds of substitutions with what performs them: where that is still so, no code of launch files does.
-performing: Final[dict[type[Substitution], Any]] = {}
+_performing: Final[dict[type[Substitution], Any]] = {}
+# These kinds, and texts, which are known as themselves.
+_kinds: Final[set[type[Any]]] = {str, TextSubstitution}
+_KNOWN_AS: Final = repeat("_known_as")
 _perform: Final = attrgetter("perform")
 
 
@@ -109,16 +113,29 @@ def joined(items: Iterable[Any], span: Span) -> tuple[tuple[Part, ...], str]:
     return parts, raw
 
 
+def known_as(items: Sequence[Any]) -> tuple[Any, ...] | None:
+    """Return what several texts and substitutions are known as; None where one is of another kind."""
+    return tuple(map(getattr, items, _KNOWN_AS, items)) if _kinds.issuperset(map(type, items)) else None
+
+
+def perform_alike(*kinds: type[Substitution]) -> None:
+    """Take note of kinds of substitutions that are all alike where the same was given."""
+    _performing.update((kind, kind.perform) for kind in kinds)
+    _kinds.update(kinds)
+
+
 def is_changed() -> bool:
     """Return whether code has put something else in the place of what performs substitutions."""
-    return [*map(_perform, performing)] != [*performing.values()]
+    return [*map(_perform, _performing)] != [*_performing.values()]
 
 
 def composed(
     items: Sequence[Any], call: Arguments, path: tuple[Way, ...], *, quoted: bool = False
 ) -> Template | None:
     """Return several texts and substitutions that stand in an argument of a call; None where that takes a look."""
-    known = tuple([item if type(item) is str else getattr(item, "_known_as", None) for item in items])
+    known = known_as(items)
+    if known is None:
+        return None
     found = _composed.get(known)
     if found is None and known not in _composed:
         if len(_composed) >= _MOST:

@@ -15,7 +15,7 @@ from orchestra.compat.launch.utilities.type_utils import (
 )
 from orchestra.compat.place import IN_CONSTRUCTOR, here
 from orchestra.compat.refusing import Refusing
-from orchestra.compat.text import normalized
+from orchestra.compat.text import known_as, normalized
 from orchestra.compat.wrong import WrongNumber, WrongType
 
 if TYPE_CHECKING:
@@ -124,17 +124,14 @@ class ParameterFile(Refusing):
         self.__allow_substs = allow_substs
 
     def _keep(self, arguments: tuple[Any, ...], keywords: dict[str, Any]) -> bool:
-        if len(arguments) != 1 or (keywords and type(keywords.get("allow_substs")) is not bool):
+        if len(arguments) != 1:
+            return False
+        if keywords and (len(keywords) > 1 or type(keywords.get("allow_substs")) is not bool):
             return False
         path = arguments[0]
-        if type(path) is list:
-            for item in path:
-                if type(item) is not str and not isinstance(item, Substitution):
-                    return False
+        if type(path) is list and known_as(path) is not None:
             path = path.copy()
         elif type(path) is not str and not isinstance(path, Substitution):
-            return False
-        if len(keywords) > 1:
             return False
         self._as_given = (path,), keywords
         return True

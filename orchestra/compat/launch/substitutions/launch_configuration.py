@@ -9,7 +9,7 @@ from orchestra.compat.described import described
 from orchestra.compat.launch.substitutions.text_substitution import TextSubstitution
 from orchestra.compat.parsed import ParsedSubstitution
 from orchestra.compat.place import IN_CONSTRUCTOR, here
-from orchestra.compat.text import normalized, performing
+from orchestra.compat.text import normalized, perform_alike
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -71,7 +71,7 @@ class LaunchConfiguration(ParsedSubstitution):
 
 
 PERFORM: Final = LaunchConfiguration.perform
-performing[LaunchConfiguration] = PERFORM
+perform_alike(LaunchConfiguration)
 
 
 def _texts(default: Any) -> Any:

@@ -10,7 +10,7 @@ from orchestra.compat.launch.substitutions.text_substitution import TextSubstitu
 from orchestra.compat.parsed import ParsedSubstitution
 from orchestra.compat.performed import Concatenated
 from orchestra.compat.place import IN_CONSTRUCTOR, here
-from orchestra.compat.text import normalized, performing
+from orchestra.compat.text import known_as, normalized, perform_alike
 from orchestra.compat.wrong import WrongType
 from orchestra.description.written import escaped
 
@@ -43,14 +43,11 @@ class PathJoinSubstitution(ParsedSubstitution):
         items = arguments[0] if len(arguments) == 1 and not keywords else None
         if type(items) is not list or not items:
             return False
-        known = (
-            "path-join",
-            *[item if type(item) is str else getattr(item, "_known_as", None) for item in items],
-        )
-        if None in known:
+        known = known_as(items)
+        if known is None or None in known:
             return False
         self._as_given = (items.copy(),), keywords
-        self._known_as = known
+        self._known_as = "path-join", *known
         return True
 
     @classmethod
@@ -85,7 +82,7 @@ class PathJoinSubstitution(ParsedSubstitution):
         return [("substitutions", index) for index in range(len(self.substitutions))]
 
 
-performing[PathJoinSubstitution] = PathJoinSubstitution.perform
+perform_alike(PathJoinSubstitution)
 
 
 def _follows(item: Substitution) -> bool:

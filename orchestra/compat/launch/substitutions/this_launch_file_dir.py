@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from orchestra.compat.parsed import ParsedSubstitution
-from orchestra.compat.text import performing
+from orchestra.compat.text import perform_alike
 
 if TYPE_CHECKING:
     from orchestra.compat.launch.launch_context import LaunchContext
@@ -34,4 +34,4 @@ class ThisLaunchFileDir(ParsedSubstitution):
 
 
 _ALONE = ("dirname",)
-performing[ThisLaunchFileDir] = ThisLaunchFileDir.perform
+perform_alike(ThisLaunchFileDir)

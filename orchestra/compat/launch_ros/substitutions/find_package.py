@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from orchestra.compat.ament_index_python.packages import get_package_prefix, get_package_share_directory
 from orchestra.compat.described import described
 from orchestra.compat.parsed import ParsedSubstitution
-from orchestra.compat.text import normalized, performing
+from orchestra.compat.text import normalized, perform_alike
 from orchestra.description.text import Call, Opaque, Template, Words
 
 if TYPE_CHECKING:
@@ -97,4 +97,4 @@ class FindPackageShare(FindPackage):
         return get_package_share_directory(package_name)
 
 
-performing.update({kind: kind.perform for kind in (FindPackagePrefix, FindPackageShare)})
+perform_alike(FindPackagePrefix, FindPackageShare)
