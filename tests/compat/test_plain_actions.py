@@ -20,7 +20,7 @@ from orchestra.compat.launch.actions import (
 from orchestra.compat.launch.conditions import IfCondition
 from orchestra.compat.launch.launch_description_sources import PythonLaunchDescriptionSource
 from orchestra.compat.launch.substitutions import LaunchConfiguration, TextSubstitution
-from orchestra.compat.launch_ros.actions import PushROSNamespace, SetRemap
+from orchestra.compat.launch_ros.actions import PushROSNamespace, SetParameter, SetRemap
 from orchestra.compat.refusing import collecting
 from orchestra.errors import Problems
 from tests.compat.contexts import loading
@@ -58,6 +58,9 @@ def _both(kind: type[Any], *arguments: Any, **keywords: Any) -> tuple[Any, Any]:
         (SetLaunchConfiguration, ("a",), {"value": ""}),
         (SetEnvironmentVariable, (), {"name": "A", "value": [_ROBOT, ""]}),
         (UnsetEnvironmentVariable, ("A",), {}),
+        (SetParameter, ("use_sim_time", True), {}),
+        (SetParameter, (), {"name": [_ROBOT, ".a"], "value": "$(var b)"}),
+        (SetParameter, ("rate",), {"value": 0.5}),
         (LogInfo, (), {"msg": ["robot: ", _ROBOT]}),
         (DeclareLaunchArgument, ("a",), {}),
         (DeclareLaunchArgument, ("a",), {"default_value": [_ROBOT, "/b"], "description": "c"}),
