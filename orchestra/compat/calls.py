@@ -44,13 +44,29 @@ class CallSubstitution(Substitution):
     _kept: tuple[tuple[list[Substitution], ...], Template, Place] | None = None
     # What it alone is as a text, as long as it has its arguments as they were given.
     _sure: Template | None = None
+    # The paths that are known by what this one is known as.
+    _paths_of: list[CallSubstitution] | None = None
 
     def __init__(self) -> None:
         self._place = here(self, IN_CONSTRUCTOR)
 
     def _make(self, given: tuple[tuple[Any, ...], dict[str, Any]]) -> None:
-        self._known_as = self._sure = None
+        self._forget()
         super()._make(given)
+
+    def _hold(self, path: CallSubstitution) -> None:
+        """Let a path be known by what this one is known as."""
+        if self._paths_of is None:
+            self._paths_of = [path]
+        else:
+            self._paths_of.append(path)
+
+    def _forget(self) -> None:
+        """Be known by nothing that was given, which code may change from now on; nor are the paths with this one."""
+        self._known_as = self._sure = None
+        paths, self._paths_of = self._paths_of, None
+        for path in paths or ():
+            path._forget()
 
     def _arguments(self) -> Sequence[Sequence[Substitution]]:
         """Return the arguments of the call."""

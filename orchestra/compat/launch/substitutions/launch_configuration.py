@@ -49,7 +49,7 @@ class LaunchConfiguration(ParsedSubstitution):
     def variable_name(self) -> list[Substitution]:
         """The name."""
         name = self.__variable_name
-        self._known_as = self._sure = None
+        self._forget()
         return name
 
     def describe(self) -> str:

@@ -46,6 +46,9 @@ class PathJoinSubstitution(ParsedSubstitution):
         known = known_as(items)
         if known is None or None in known:
             return False
+        for item in items:
+            if type(item) is not str and type(item) is not TextSubstitution:
+                item._hold(self)
         self._as_given = (items.copy(),), keywords
         self._known_as = "path-join", *known
         return True

@@ -18,25 +18,26 @@ if TYPE_CHECKING:
 class TextSubstitution(Substitution):
     """A text. Raises `TypeError` for anything else."""
 
-    _known_as: str
+    _known_as: str | None
 
     def __init__(self, *, text: str) -> None:
         if not isinstance(text, str):
             told = f"the text of a TextSubstitution is a str, not {type(text).__name__}: {text!r}"
             raise WrongType(told, path=("text",))
-        self._known_as = text
+        self.__text = text
+        self._known_as = text if type(text) is str else None
 
     def _keep(self, arguments: tuple[Any, ...], keywords: dict[str, Any]) -> bool:
         text = keywords.get("text")
         if arguments or len(keywords) != 1 or type(text) is not str:
             return False
-        self._known_as = text
+        self.__text = self._known_as = text
         return True
 
     @property
     def text(self) -> str:
         """The text."""
-        return self._known_as
+        return self.__text
 
     def describe(self) -> str:
         """Return the text in quotes."""
@@ -49,10 +50,10 @@ class TextSubstitution(Substitution):
     def _parts(self, span: Span) -> tuple[Part, ...]:
         if type(self).perform is not TextSubstitution.perform:
             return super()._parts(span)
-        return (new_words(self._known_as, span),) if self._known_as else ()
+        return (new_words(self.__text, span),) if self.__text else ()
 
     def _raw(self) -> str:
-        return escaped(self._known_as)
+        return escaped(self.__text)
 
 
 _new = object.__new__
@@ -61,5 +62,6 @@ _new = object.__new__
 def text_of(text: str) -> TextSubstitution:
     """Return what the constructor makes of a text that is known to be one: launch files have thousands."""
     made = _new(TextSubstitution)
-    made._known_as = text
+    made._known_as = text if type(text) is str else None
+    made._TextSubstitution__text = text  # type: ignore[attr-defined] # its own, by the name that it has outside
     return made
