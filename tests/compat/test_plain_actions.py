@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
+from orchestra.compat import refusing
 from orchestra.compat.building import model_of
 from orchestra.compat.launch.actions import (
     DeclareLaunchArgument,
@@ -40,8 +41,13 @@ def _loading() -> Iterator[None]:
 
 def _both(kind: type[Any], *arguments: Any, **keywords: Any) -> tuple[Any, Any]:
     """Return what the constructor makes, and what keeps its arguments, from one place."""
+    both = []
     with collecting(Problems(), ()):
-        made, kept = [kind(*arguments, **keywords) for _ in range(2)]
+        for keeping in ({}, refusing._keeping):
+            with pytest.MonkeyPatch.context() as patch:
+                patch.setattr(refusing, "_keeping", keeping)
+                both.append(kind(*arguments, **keywords))
+    made, kept = both
     assert made._as_given is None
     return made, kept
 
