@@ -126,21 +126,6 @@ def span_of(value: Template | Constant | tuple[Template | Constant, ...]) -> Spa
     return value.span if isinstance(value, Items | Template | Constant) else None
 
 
-def whole_span_of(value: tuple[Template | Constant, ...]) -> Span | None:
-    """Return the place to point at for a list: all of one on one line, else what it begins with."""
-    if not isinstance(value, Items):
-        return span_of(value)
-    span = value.span
-    if span.line == span.end_line:
-        return span
-    return Span(span.file, span.line, span.column, span.line, span.column + 1)
-
-
-def raw_of(value: Template | tuple[Template, ...]) -> str:
-    """Return a value as written, the items of a list with blanks between them."""
-    return " ".join(item.raw for item in value) if isinstance(value, tuple) else value.raw
-
-
 @dataclass(frozen=True, slots=True)
 class PlainCall:
     """A call whose arguments are words, as it is written: each with the two offsets at which it stands in it.

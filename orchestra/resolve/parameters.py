@@ -11,10 +11,9 @@ from orchestra.description.text import (
     Items,
     Template,
     span_of,
-    whole_span_of,
 )
 from orchestra.errors import Code
-from orchestra.location import is_python, point
+from orchestra.location import Span, is_python, point
 from orchestra.nearest import nearest
 from orchestra.resolve.context import POISON, Poison, Value
 from orchestra.resolve.model import (
@@ -225,6 +224,16 @@ def _constant(name: str, value: Constant, type_word: str | None, run: Resolution
         return _refuse(name, error, run.at(value.span), run)
 
 
+def _whole_span_of(value: tuple[Typed, ...]) -> Span | None:
+    """Return the place to point at for a list: all of one on one line, else what it begins with."""
+    if not isinstance(value, Items):
+        return span_of(value)
+    span = value.span
+    if span.line == span.end_line:
+        return span
+    return Span(span.file, span.line, span.column, span.line, span.column + 1)
+
+
 def _list(
     name: str, items: tuple[Typed, ...], type_word: str | None, run: Resolution, at: Location
 ) -> ParameterValue | Poison:
@@ -233,7 +242,7 @@ def _list(
         return _refuse(name, f"a list is no {element}", at, run)
     whole = None if element is None or len(items) <= 1 else wrong_as_a_whole(items, element)
     if whole is not None:
-        return _refuse(name, whole, run.at(whole_span_of(items) or at.span), run)
+        return _refuse(name, whole, run.at(_whole_span_of(items) or at.span), run)
     texts: list[str] = []
     values: list[ParameterValue] = []
     for item in items:

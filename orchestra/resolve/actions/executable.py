@@ -6,7 +6,7 @@ import os
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
-from orchestra.description.text import raw_of, span_of
+from orchestra.description.text import span_of
 from orchestra.errors import Code
 from orchestra.resolve.context import POISON, Poison, Value
 from orchestra.resolve.model import ResolvedProcess
@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from orchestra.description.actions.executable import Executable
+    from orchestra.description.text import Template
     from orchestra.resolve.resolution import Resolution
 
 _INTERPRETERS: Final = frozenset({"bash", "python", "python3", "sh"})
@@ -37,7 +38,7 @@ def visit(action: Executable, run: Resolution) -> None:
     process.location = at
     process.origin = action.origin
     process.program = () if isinstance(words, Poison) else words
-    process.executable = _called(process.program[0]) if process.program else raw_of(action.cmd)
+    process.executable = _called(process.program[0]) if process.program else _raw_of(action.cmd)
     process.namespace = namespace if isinstance(namespace, Value) else None
     process.label = label if isinstance(label, str) else None
     process.faulty = any(isinstance(value, Poison) for value in (words, label, namespace))
@@ -46,6 +47,11 @@ def visit(action: Executable, run: Resolution) -> None:
 
 
 _new: Final = object.__new__
+
+
+def _raw_of(value: Template | tuple[Template, ...]) -> str:
+    """Return a value as written, the items of a list with blanks between them."""
+    return " ".join(item.raw for item in value) if isinstance(value, tuple) else value.raw
 
 
 def _called(program: str) -> str:
