@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, Final
 from orchestra.compat.launch.substitution import Substitution
 from orchestra.compat.launch.substitutions.text_substitution import TextSubstitution
 from orchestra.compat.place import IN_CONSTRUCTOR, Arguments, Instructions, argument, here
-from orchestra.compat.text import Composed, alone, is_changed, template
+from orchestra.compat.text import Composed, alone, is_changed, shown, template
 from orchestra.description.text import (
     Call,
     Opaque,
@@ -63,10 +63,16 @@ class CallSubstitution(Substitution):
 
     def _forget(self) -> None:
         """Be known by nothing that was given, which code may change from now on; nor are the paths with this one."""
+        if self._known_as is not None:
+            shown[0] += 1
         self._known_as = self._sure = None
         paths, self._paths_of = self._paths_of, None
         for path in paths or ():
             path._forget()
+
+    def _is_noted(self) -> bool:
+        """Return whether it is noted when code is shown what this one was given."""
+        return self._known_as is not None
 
     def _arguments(self) -> Sequence[Sequence[Substitution]]:
         """Return the arguments of the call."""

@@ -46,6 +46,8 @@ _performing: Final[dict[type[Substitution], Any]] = {}
 # These kinds, and texts, which are known as themselves.
 _kinds: Final[set[type[Any]]] = {str, TextSubstitution}
 _KNOWN_AS: Final = repeat("_known_as")
+# How often something that is known as itself has been shown to code, which may change it from then on.
+shown: Final = [0]
 _perform: Final = attrgetter("perform")
 
 

@@ -142,7 +142,7 @@ _ARGUMENTS = st.fixed_dictionaries(
             ]
         ),
         "emulate_tty": st.sampled_from([None, True, False, "true"]),
-        "respawn": st.sampled_from([True, False, "true"]),
+        "respawn": st.sampled_from([True, False, "true"]) | _SUBS | _MIXED | _MIXED.map(tuple),
         "respawn_delay": st.sampled_from([None, 0, 2, 1.5, -1.0, float("inf"), "2"]),
         "additional_env": st.none() | st.dictionaries(_WORDS, _TEXTS, max_size=2),
         "condition": _CONDITIONS,
@@ -276,6 +276,28 @@ def test_what_happens_to_arguments_later_is_not_seen(name: str) -> None:
     assert _told(node) == expected
     assert node.cmd  # whose words are made now
     assert _told(node) == expected
+
+
+def test_what_is_changed_in_a_substitution_counts() -> None:
+    with collecting(Problems(), ()):
+        again, log, path = (LaunchConfiguration(name) for name in ("again", "log", "path"))
+        late, home = LaunchConfiguration("late", default="x"), EnvironmentVariable("HOME")
+        file = ParameterFile([path], allow_substs=True)
+    given = {"respawn": again, "output": [log], "prefix": late, "cwd": home, "parameters": [file]}
+    for part, field, changed in (
+        (again.variable_name, "respawn", "$(var other)"),
+        (log.variable_name, "output", "$(var other)"),
+        (late.variable_name, "launch_prefix", "$(var other x)"),
+        (home.name, "cwd", "$(env other)"),
+    ):
+        node = _made({**_USUAL, **given})
+        assert _is_plain(node)
+        part[:] = [TextSubstitution(text="other")]
+        assert getattr(_model(node), field).raw == changed
+    node = _made({**_USUAL, "parameters": [file]})
+    assert _is_plain(node)
+    file.param_file[0] = TextSubstitution(text="p.yaml")
+    assert [part.from_.raw for part in _model(node).param] == ["p.yaml"]
 
 
 def test_what_is_changed_in_a_node_counts() -> None:

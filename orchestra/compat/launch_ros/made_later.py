@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Final
 
-from orchestra.compat.launch_ros.plain_texts import read
+from orchestra.compat.launch_ros.plain_texts import read, unnoted
 from orchestra.compat.place import Arguments, Place
 from orchestra.compat.refusing import Refusing, standing
+from orchestra.compat.text import is_changed, shown
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -22,15 +23,18 @@ class Made:
     `resolved` and `prepared` give what a visit has come to, where that is told; `condition` is that of a component.
     """
 
-    __slots__ = ("_fields", "_form", "_kept", "call", "condition", "prepared", "resolved")
+    __slots__ = ("_fields", "_form", "_kept", "_shown", "call", "condition", "prepared", "resolved")
 
     condition: Any
 
-    def __init__(self, call: Arguments, kept: Any, fields: dict[str, Any] | None, form: Form | None) -> None:
+    def __init__(
+        self, call: Arguments, kept: Any, fields: dict[str, Any] | None, form: Form | None, *, noted: bool
+    ) -> None:
         self.call = call
         self._kept = kept
         self._fields = fields
         self._form = form
+        self._shown = shown[0] if noted else None
         self.resolved: Callable[[], tuple[Any, ...]] | None = None
         self.prepared: Callable[[], tuple[Any, ...]] | None = None
 
@@ -47,15 +51,14 @@ class Made:
         """Return the fields of the model; None where an argument is usual no more.
 
         They are for the first visit, and take more room than all that is left of it. Few objects have another one: then
-        the arguments are read again.
+        the arguments are read again. So they are where code may have changed what a substitution among them was given.
         """
-        fields = self._fields
-        if fields is None and self._form is not None:
-            self._fields = _GONE
-            return self._form.make(self._kept, self.call)
-        if fields:
-            self._fields = _GONE
-            return fields
+        fields, self._fields = self._fields, _GONE
+        if self._shown == shown[0] and not is_changed():
+            if fields is None and self._form is not None:
+                return self._form.make(self._kept, self.call)
+            if fields:
+                return fields
         fields = usual.unwritten.copy()
         return None if read(self.given, self.call, usual.readers, fields) is None else fields
 
@@ -88,19 +91,19 @@ class Usual:
 
     def made(self, given: dict[str, Any], place: Place) -> Made | None:
         """Return what an object is made of that is constructed at a place; None where a keyword is not usual."""
-        call, names = Arguments(place), tuple(given)
+        call, names, before = Arguments(place), tuple(given), unnoted[0]
         forms = self._forms.get(names, ())
         for form in forms:
             leaves = form.take(given, call)
             if leaves is not None:
-                return Made(call, leaves, None, form)
+                return Made(call, leaves, None, form, noted=before == unnoted[0])
         fields = self.unwritten.copy()
         kept = read(given, call, self.readers, fields)
         if kept is None or None in [fields[name] for name in self._needed]:
             return None
         if len(forms) < _MOST_FORMS:
             self._learn(names, kept)
-        return Made(call, kept, fields, None)
+        return Made(call, kept, fields, None, noted=before == unnoted[0])
 
     def _learn(self, names: tuple[str, ...], given: dict[str, Any]) -> None:
         """Learn the form of a call where there have been some like it. Only every few calls are looked at."""

@@ -15,7 +15,7 @@ from orchestra.compat.launch.utilities.type_utils import (
 )
 from orchestra.compat.place import IN_CONSTRUCTOR, here
 from orchestra.compat.refusing import Refusing
-from orchestra.compat.text import known_as, normalized
+from orchestra.compat.text import known_as, normalized, shown
 from orchestra.compat.wrong import WrongNumber, WrongType
 
 if TYPE_CHECKING:
@@ -139,6 +139,7 @@ class ParameterFile(Refusing):
     @property
     def param_file(self) -> Any:
         """The path that it came to, before that what it is made of."""
+        shown[0] += 1
         return self.__param_file if self.__evaluated is None else self.__evaluated
 
     @property

@@ -157,6 +157,16 @@ def known_flag(name: str, value: Any, call: Arguments, fields: dict[str, Any], k
         raise UnusualError
 
 
+def _respawn(name: str, value: Any, call: Arguments, fields: dict[str, Any], kept: dict[str, Any]) -> None:
+    """Read whether a process is started again: a truth value, or what substitutions come to."""
+    if type(value) is bool or type(value) is str:
+        known_flag(name, value, call, fields, kept)
+        return
+    word(name, name, value, call, fields, kept)
+    if fields[name].constant is not None:
+        raise UnusualError
+
+
 def _retries(name: str, value: Any, call: Arguments, fields: dict[str, Any], kept: dict[str, Any]) -> None:
     del kept
     if type(value) is not int or value < -1:
@@ -252,7 +262,7 @@ _READ: Final[dict[str, Callable[..., None] | str]] = {
     "ros_arguments": _words("ros_args", empty=()),
     "output": _output,
     "emulate_tty": _flag,
-    "respawn": known_flag,
+    "respawn": _respawn,
     "respawn_delay": _delay,
     "respawn_max_retries": _retries,
     "shell": known_flag,

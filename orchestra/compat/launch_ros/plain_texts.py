@@ -19,6 +19,10 @@ if TYPE_CHECKING:
     from orchestra.location import Span
 
 
+# How often a substitution has been read of which nobody notes whether code is shown what it was given.
+unnoted: Final = [0]
+
+
 class UnusualError(Exception):
     """An argument is none of the usual ones."""
 
@@ -74,6 +78,8 @@ def whole_text(value: Any) -> Template:
     made = value._whole() if isinstance(value, CallSubstitution) else None
     if made is None:
         raise UnusualError
+    if value._known_as is None and not value._is_noted():
+        unnoted[0] += 1
     return made
 
 

@@ -9,7 +9,7 @@ from orchestra.compat.described import described
 from orchestra.compat.launch.substitutions.text_substitution import TextSubstitution
 from orchestra.compat.parsed import ParsedSubstitution
 from orchestra.compat.place import IN_CONSTRUCTOR, here
-from orchestra.compat.text import normalized, perform_alike
+from orchestra.compat.text import normalized, perform_alike, shown
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -49,12 +49,21 @@ class LaunchConfiguration(ParsedSubstitution):
     def variable_name(self) -> list[Substitution]:
         """The name."""
         name = self.__variable_name
+        shown[0] += 1
         self._forget()
         return name
 
     def describe(self) -> str:
         """Return the name and what it is."""
         return f"LaunchConfig({described(self.__own_name())})"
+
+    def _is_noted(self) -> bool:
+        if self._known_as is not None:
+            return True
+        if type(self) is not LaunchConfiguration:
+            return False
+        name, default = self.__variable_name, self.__default
+        return _TEXTS.issuperset(map(type, name if default is None else name + default))
 
     def __own_name(self) -> list[Substitution]:
         """Return the name without showing it to anybody; a user's subclass may say another one."""
@@ -70,6 +79,7 @@ class LaunchConfiguration(ParsedSubstitution):
         return None if known is None or type(self).perform is not PERFORM else known[1]
 
 
+_TEXTS: Final = frozenset({TextSubstitution})
 PERFORM: Final = LaunchConfiguration.perform
 perform_alike(LaunchConfiguration)
 
