@@ -127,7 +127,7 @@ class CallSubstitution(Substitution):
         """Return the same of what the constructor makes."""
         given = tuple(self._arguments())
         kept = self._kept
-        if kept is not None and kept[0] == given and kept[2] is self._place:
+        if kept is not None and kept[0] == given and kept[2] is self._place and not is_changed():
             return kept[1]
         others = [item for items in given for item in items if type(item) is not TextSubstitution]
         if others and not all(map(_is_known, others)):
