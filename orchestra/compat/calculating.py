@@ -144,7 +144,7 @@ class _Made(Matched):
     @property
     def whole(self) -> Instructions:  # type: ignore[override] # nobody sets it
         """The text."""
-        return Instructions(self._made._place._code)
+        return self._made._place.whole
 
     def span(self, group: int) -> Span:
         """Return the place."""

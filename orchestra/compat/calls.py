@@ -186,7 +186,7 @@ class _Called(Matched):
     @property
     def whole(self) -> Instructions:  # type: ignore[override] # nobody sets it
         """The text."""
-        return Instructions(self._place._code)
+        return self._place.whole
 
     def span(self, group: int) -> Span:
         """Return the place."""
@@ -211,7 +211,7 @@ class _Kept(Matched):
     @property
     def whole(self) -> Instructions:  # type: ignore[override] # nobody sets it
         """The text."""
-        return Instructions(self._made._place._code)
+        return self._made._place.whole
 
     def span(self, group: int) -> Span:
         """Return the place."""

@@ -80,6 +80,11 @@ class Place:
             self._span = span_of(self._code, self._instruction)
         return self._span
 
+    @property
+    def whole(self) -> Instructions:
+        """The code, as the text in which it stands; another object each time."""
+        return Instructions(self._code)
+
     def of(self, made: object) -> Place:
         """Return the same place as that of what was made there."""
         return Place(self._code, self._instruction, None if made is None else type(made))
@@ -145,7 +150,7 @@ class Arguments(Matched):
     @property
     def whole(self) -> Instructions:  # type: ignore[override] # nobody sets it
         """The text, another object each time: two arguments of a call have no offsets to be told apart by."""
-        return Instructions(self.place._code)
+        return self.place.whole
 
     def span(self, group: Any) -> Span:
         """Return the place of an argument, or of what it holds, by its path; of all of the call without one."""

@@ -12,7 +12,7 @@ from orchestra.compat.seam import connection
 from orchestra.dataclass import dataclass
 from orchestra.description.source import Written
 from orchestra.description.text import Call, Opaque, Words
-from orchestra.location import Span
+from orchestra.location import Span, point
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -29,6 +29,20 @@ class Given:
 
     span: Span
     kind = None
+
+    @property
+    def file(self) -> str:
+        """The file."""
+        return self.span.file
+
+    @property
+    def whole(self) -> Span:
+        """What names the file in which it stands; another object each time."""
+        return point(self.span.file)
+
+    def of(self, _made: object) -> Given:
+        """Return the place of what is made anew there: the same."""
+        return self
 
     def at(self, *_: Any) -> Span:
         """Return the place of an argument: the same."""
