@@ -15,7 +15,7 @@ from orchestra.compat.launch.substitution import Substitution
 from orchestra.compat.launch.substitutions.text_substitution import TextSubstitution, text_of
 from orchestra.compat.place import Argument, Arguments, Place
 from orchestra.compat.wrong import WrongType
-from orchestra.dataclass import dataclass
+from orchestra.dataclass import dataclass, maker
 from orchestra.description.text import (
     Pieces,
     PlainCall,
@@ -65,6 +65,9 @@ class Composed(Pieces):
         """Return them as parts of a text."""
         parts: tuple[Part, ...] = template.matched.parts(template.span)  # type: ignore[attr-defined] # one with `parts`
         return parts
+
+
+new_composed: Final = maker(Composed)
 
 
 # By what they are known as; None for several that are left to those who look at each.

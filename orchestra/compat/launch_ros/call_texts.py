@@ -6,8 +6,7 @@ from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
 from orchestra.compat.launch.substitutions.launch_configuration import LaunchConfiguration
 from orchestra.compat.launch_ros.plain_texts import UnusualError
-from orchestra.compat.text import Composed, Listed
-from orchestra.dataclass import maker
+from orchestra.compat.text import Listed, new_composed
 from orchestra.description.text import matched_template
 
 if TYPE_CHECKING:
@@ -92,7 +91,7 @@ def mixed(
     path: _Path,
 ) -> Template:
     """Return several texts and variables as the text that an argument of a call holds."""
-    made = _new_composed(pieces, names, None, raw, ())
+    made = new_composed(pieces, names, None, raw, ())
     return matched_template(raw, False, Listed(call, items), path, made)  # type: ignore[arg-type] # its groups are paths
 
 
@@ -129,6 +128,5 @@ def is_mixed(value: Any) -> bool:
     )
 
 
-_new_composed: Final = maker(Composed)
 _SERIES: Final = frozenset({list, tuple})
 _SEVERAL: Final = 2
