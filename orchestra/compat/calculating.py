@@ -10,11 +10,11 @@ import re
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any, Final
 
-from orchestra.compat.calls import CallSubstitution
+from orchestra.compat.calls import CallSubstitution, Made
 from orchestra.compat.launch.substitutions.launch_configuration import LaunchConfiguration
 from orchestra.compat.launch.substitutions.text_substitution import TextSubstitution
 from orchestra.compat.parsed import ParsedSubstitution
-from orchestra.compat.place import Instructions, argument
+from orchestra.compat.place import argument
 from orchestra.compat.text import template
 from orchestra.description.calculated import DIGIT, Calculated
 from orchestra.description.substitutions import Part, Shape
@@ -25,7 +25,6 @@ from orchestra.description.text import (
     new_words,
 )
 from orchestra.description.written import called, escaped
-from orchestra.location import Matched
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -87,7 +86,7 @@ class Calculating(ParsedSubstitution):
             raw = _written(skeleton) % numbers
         else:
             skeleton, raw = text, _written(text)
-        return matched_template(raw, False, _Made(self), 0, _Calculation(text, skeleton, numbers, made))
+        return matched_template(raw, False, Made(self), 0, _Calculation(text, skeleton, numbers, made))
 
 
 def _is_written(call: Calculating, pieces: list[str], made: list[Any]) -> bool:
@@ -131,25 +130,6 @@ def _is_known(kind: Any) -> bool:
     _known.add((kind, kind.perform))
     _parameters[kind._name] = kind._parameters
     return True
-
-
-class _Made(Matched):
-    """What a substitution alone comes to stands where that was made."""
-
-    __slots__ = ("_made",)
-
-    def __init__(self, made: Calculating) -> None:
-        self._made = made
-
-    @property
-    def whole(self) -> Instructions:  # type: ignore[override] # nobody sets it
-        """The text."""
-        return self._made._place.whole
-
-    def span(self, group: int) -> Span:
-        """Return the place."""
-        del group
-        return self._made._place.span
 
 
 class _Calculation(Calculated):

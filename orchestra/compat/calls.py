@@ -199,14 +199,13 @@ class _Called(Matched):
         return (self._call,)
 
 
-class _Kept(Matched):
-    """The same of one that has its arguments as they are `given`: the call is made of these when somebody asks."""
+class Made(Matched):
+    """What a substitution alone comes to stands where that was made."""
 
-    __slots__ = ("_given", "_made")
+    __slots__ = ("_made",)
 
-    def __init__(self, made: CallSubstitution, given: Any) -> None:
+    def __init__(self, made: CallSubstitution) -> None:
         self._made = made
-        self._given = given
 
     @property
     def whole(self) -> Instructions:  # type: ignore[override] # nobody sets it
@@ -217,6 +216,16 @@ class _Kept(Matched):
         """Return the place."""
         del group
         return self._made._place.span
+
+
+class _Kept(Made):
+    """The same of one that has its arguments as they are `given`: the call is made of these when somebody asks."""
+
+    __slots__ = ("_given",)
+
+    def __init__(self, made: CallSubstitution, given: Any) -> None:
+        self._made = made
+        self._given = given
 
     def parts(self, span: Span) -> tuple[Part, ...]:
         """Return the call."""
