@@ -138,11 +138,7 @@ class _Calculation(Calculated):
     __slots__ = ("_made",)
 
     def __init__(self, text: str, skeleton: str, numbers: tuple[str, ...], made: Sequence[Any]) -> None:
-        self.text = text
-        self.skeleton = skeleton
-        self.numbers = numbers
-        self.formula = None
-        self.names = None
+        super().__init__(text, skeleton, numbers)
         self._made = made
 
     @staticmethod

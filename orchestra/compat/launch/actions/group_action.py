@@ -105,4 +105,4 @@ class GroupAction(PlainAction):
         return Group.at(span, **fields, **more, **common)
 
 
-_PLAIN: Final = frozenset({"actions", "scoped", "forwarding"})
+_PLAIN: Final = frozenset(GroupAction._plain[1])

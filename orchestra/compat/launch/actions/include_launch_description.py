@@ -202,7 +202,7 @@ def _is_text(value: Any) -> bool:
 _ARGUMENTS: Final = ("launch_arguments",)
 _PAIR: Final = 2
 _PAIRS: Final = frozenset({list, tuple, type({}.items())})
-_PLAIN: Final = frozenset({"launch_description_source", "launch_arguments"})
+_PLAIN: Final = frozenset(IncludeLaunchDescription._plain[1])
 
 
 def _check(arguments: Any) -> None:
