@@ -32,6 +32,7 @@ if TYPE_CHECKING:
 
 
 _VALUE: Final = "var"
+_new = object.__new__
 
 
 class CallSubstitution(Substitution):
@@ -104,14 +105,15 @@ class CallSubstitution(Substitution):
         known = self._known_as
         if known is None or is_changed():
             return self._looked_at()
-        made = self._sure
-        if made is None:
-            composed, matched = (
-                alone(known, self._written),
-                _Kept(self, self._as_given or self._given_again()),
-            )
-            made = matched_template(composed.raw, False, matched, 0, composed)
-            self._sure = made
+        return self._sure or self._surely(known)
+
+    def _surely(self, known: Any) -> Template:
+        """Return the text that the call alone is, and keep it; the call is known as this."""
+        matched = _new(_Kept)
+        matched._made = self
+        matched._given = self._as_given or self._given_again()
+        composed = alone(known, self._written)
+        self._sure = made = matched_template(composed.raw, False, matched, 0, composed)
         return made
 
     def _written(self) -> str:
@@ -223,9 +225,7 @@ class _Kept(Made):
 
     __slots__ = ("_given",)
 
-    def __init__(self, made: CallSubstitution, given: Any) -> None:
-        self._made = made
-        self._given = given
+    _given: Any
 
     def parts(self, span: Span) -> tuple[Part, ...]:
         """Return the call."""

@@ -29,6 +29,7 @@ _MOST_CODES: Final = 256
 # What keeps the arguments of a call as they are given, by the class that is constructed.
 _keeping: dict[type[Any], Callable[[Any, tuple[Any, ...], dict[str, Any]], bool]] = {}
 _new = object.__new__
+_frame = sys._getframe
 
 
 @contextmanager
@@ -83,6 +84,11 @@ class Refusing:
         """
         return False
 
+    @classmethod
+    def _keeps(cls) -> Callable[[Any, tuple[Any, ...], dict[str, Any]], bool] | None:
+        """Return what keeps the arguments of this very class; None where all are looked at."""
+        return None if cls._keep is Refusing._keep else cls._keep
+
     def _make(self, given: tuple[tuple[Any, ...], dict[str, Any]]) -> None:
         """Do what the constructor does with arguments that were kept."""
         with standing(self._place):
@@ -105,8 +111,9 @@ class Refusing:
             return
         if constructor is not None:
             cls.__init__ = _refusing(constructor)  # type: ignore[method-assign] # the same signature
-        if cls._keep is not Refusing._keep:
-            _keeping[cls] = cls._keep
+        keep = cls._keeps()
+        if keep is not None:
+            _keeping[cls] = keep
 
     if not TYPE_CHECKING:  # else any attribute would be one
 
@@ -139,15 +146,16 @@ def _refusing(constructor: Callable[..., None]) -> Callable[..., None]:
 
     @wraps(constructor)
     def construct(self: Any, *arguments: Any, **keywords: Any) -> None:
-        caller = sys._getframe(1)
+        caller = _frame(1)
         code = caller.f_code
-        if id(code) not in _constructing:
-            if not _collectors or is_ours(caller):
-                constructor(self, *arguments, **keywords)
-                return
-            _note(code)
-        keep = _keeping.get(type(self))
-        if keep is not None and id(code) in _constructing and keep(self, arguments, keywords):
+        if id(code) in _constructing:
+            keep = _keeping.get(type(self))
+        elif not _collectors or is_ours(caller):
+            constructor(self, *arguments, **keywords)
+            return
+        else:
+            keep = _keeping.get(type(self)) if _is_noted(code) else None
+        if keep is not None and keep(self, arguments, keywords):
             self._made_at = code, caller.f_lasti
             return
         try:
@@ -166,9 +174,11 @@ def _refusing(constructor: Callable[..., None]) -> Callable[..., None]:
     return construct
 
 
-def _note(code: CodeType) -> None:
+def _is_noted(code: CodeType) -> bool:
     """Note that a code of a launch file constructs things, where all of them stand in it."""
-    if code.co_name != "__init__" and not stands and not is_own(code.co_filename):
-        if len(_constructing) >= _MOST_CODES:
-            _constructing.clear()
-        _constructing[id(code)] = code
+    if code.co_name == "__init__" or stands or is_own(code.co_filename):
+        return False
+    if len(_constructing) >= _MOST_CODES:
+        _constructing.clear()
+    _constructing[id(code)] = code
+    return True

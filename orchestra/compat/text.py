@@ -44,7 +44,7 @@ _VARIABLE, _PATH = "var", "path-join"
 # Kinds of substitutions with what performs them: where that is still so, no code of launch files does.
 _performing: Final[dict[type[Substitution], Any]] = {}
 # These kinds, and texts, which are known as themselves.
-_kinds: Final[set[type[Any]]] = {str, TextSubstitution}
+kinds: Final[set[type[Any]]] = {str, TextSubstitution}
 _KNOWN_AS: Final = repeat("_known_as")
 # How often something that is known as itself has been shown to code, which may change it from then on.
 shown: Final = [0]
@@ -120,13 +120,13 @@ def joined(items: Iterable[Any], span: Span) -> tuple[tuple[Part, ...], str]:
 
 def known_as(items: Sequence[Any]) -> tuple[Any, ...] | None:
     """Return what several texts and substitutions are known as; None where one is of another kind."""
-    return tuple(map(getattr, items, _KNOWN_AS, items)) if _kinds.issuperset(map(type, items)) else None
+    return tuple(map(getattr, items, _KNOWN_AS, items)) if kinds.issuperset(map(type, items)) else None
 
 
-def perform_alike(*kinds: type[Substitution]) -> None:
+def perform_alike(*alike: type[Substitution]) -> None:
     """Take note of kinds of substitutions that are all alike where the same was given."""
-    _performing.update((kind, kind.perform) for kind in kinds)
-    _kinds.update(kinds)
+    _performing.update((kind, kind.perform) for kind in alike)
+    kinds.update(alike)
 
 
 def is_changed() -> bool:

@@ -13,11 +13,11 @@ from orchestra.compat.launch.substitution import Substitution
 from orchestra.compat.launch_ros.plain_texts import UnusualError, entity, plain_text, standing_at
 from orchestra.compat.place import Arguments, Way, argument
 from orchestra.compat.refusing import standing
-from orchestra.compat.text import template
+from orchestra.compat.text import kinds, template
 from orchestra.description.text import matched_words
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Callable, Mapping
 
     from orchestra.description.entity import Action as Model
     from orchestra.description.text import Template
@@ -28,18 +28,30 @@ class PlainAction(ModelledAction):
 
     # The number of those that may come without their names, and of each the name.
     _plain: ClassVar[tuple[int, tuple[str, ...]]]
+    _plain_names: ClassVar[frozenset[str]]
     _as_given: Any = None
 
+    @classmethod
+    def _keeps(cls) -> Callable[[Any, tuple[Any, ...], dict[str, Any]], bool] | None:
+        if "_plain" not in vars(cls):
+            return None
+        cls._plain_names = frozenset(cls._plain[1])
+        return cls._keep
+
     def _keep(self, arguments: tuple[Any, ...], keywords: dict[str, Any]) -> bool:
-        plain = vars(type(self)).get("_plain")
-        if plain is None or len(arguments) > plain[0]:
-            return False
-        given = dict(zip(plain[1], arguments, strict=False))
         condition = None
-        if keywords:
-            if not given.keys().isdisjoint(keywords):
+        if arguments:
+            most, names = self._plain
+            if len(arguments) > most:
                 return False
-            given |= keywords
+            given = dict(zip(names, arguments))  # noqa: B905 - fewer than names, and a keyword takes its time
+            if keywords:
+                if not given.keys().isdisjoint(keywords):
+                    return False
+                given |= keywords
+        else:
+            given = keywords.copy()
+        if keywords:
             condition = given.pop("condition", None)
         if not self._is_plain(given):
             return False
@@ -52,15 +64,10 @@ class PlainAction(ModelledAction):
 
         They are those of the class, and all of them, unless a subclass says so.
         """
-        if len(given) != len(self._plain[1]):
-            return False
-        try:
-            for name in self._plain[1]:
-                if type(given[name]) is not str and not is_text(given, name):
-                    return False
-        except KeyError:
-            return False
-        return True
+        for name, value in given.items():
+            if type(value) is not str and not is_text(given, name):
+                return False
+        return given.keys() == self._plain_names
 
     def _make(self, given: Any) -> None:
         own = vars(self).copy()
@@ -99,9 +106,10 @@ def is_text(given: dict[str, Any], name: str) -> bool:
     value = given[name]
     kind = type(value)
     if kind is list or kind is tuple:
-        for item in value:
-            if type(item) is not str and not isinstance(item, Substitution):
-                return False
+        if not kinds.issuperset(map(type, value)):
+            for item in value:
+                if type(item) is not str and not isinstance(item, Substitution):
+                    return False
         given[name] = [*value]
         return True
     return kind is str or isinstance(value, Substitution)

@@ -102,10 +102,10 @@ def known(variable: LaunchConfiguration) -> Template | None:
 
 def sure(variable: LaunchConfiguration) -> Template:
     """Return the text that a variable alone is. Raises `UnusualError`."""
-    found = known(variable)
-    if found is None:
+    known_as = variable._known_as
+    if known_as is None:
         raise UnusualError
-    return found
+    return variable._surely(known_as)
 
 
 def is_plain(value: Any) -> bool:

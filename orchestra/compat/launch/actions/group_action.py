@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any
 
 from orchestra.compat.building import made_of, models_of
 from orchestra.compat.extensions import extension_fields, taken
@@ -77,7 +77,7 @@ class GroupAction(PlainAction):
     def _is_plain(self, given: dict[str, Any]) -> bool:
         return (
             type(given.get("actions")) is list
-            and given.keys() <= _PLAIN
+            and given.keys() <= self._plain_names
             and type(given.get("scoped", True)) is type(given.get("forwarding", True)) is bool
         )
 
@@ -103,6 +103,3 @@ class GroupAction(PlainAction):
             return made_of(Group, self._place, fields, common)
         more = extension_fields(Group, self.__extensions, self._place, children=())
         return Group.at(span, **fields, **more, **common)
-
-
-_PLAIN: Final = frozenset(GroupAction._plain[1])

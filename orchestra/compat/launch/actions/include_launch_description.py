@@ -125,7 +125,9 @@ class IncludeLaunchDescription(PlainAction):
     def _is_plain(self, given: dict[str, Any]) -> bool:
         source = given.get("launch_description_source")
         if not (
-            isinstance(source, LaunchDescriptionSource) and source._reads_file and given.keys() <= _PLAIN
+            isinstance(source, LaunchDescriptionSource)
+            and source._reads_file
+            and given.keys() <= self._plain_names
         ):
             return False
         arguments: Any = given.get("launch_arguments")
@@ -202,7 +204,6 @@ def _is_text(value: Any) -> bool:
 _ARGUMENTS: Final = ("launch_arguments",)
 _PAIR: Final = 2
 _PAIRS: Final = frozenset({list, tuple, type({}.items())})
-_PLAIN: Final = frozenset(IncludeLaunchDescription._plain[1])
 
 
 def _check(arguments: Any) -> None:

@@ -35,7 +35,7 @@ class LaunchConfiguration(ParsedSubstitution):
     def _keep(self, arguments: tuple[Any, ...], keywords: dict[str, Any]) -> bool:
         if keywords or len(arguments) != 1:
             return False
-        name = arguments[0]
+        (name,) = arguments
         if type(name) is not str or not name:
             return False
         self._as_given = arguments, keywords
