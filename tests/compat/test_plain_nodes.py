@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from orchestra.compat.building import model_of
 from orchestra.compat.launch import Substitution
-from orchestra.compat.launch.actions import Shutdown
+from orchestra.compat.launch.actions import ExecuteProcess, Shutdown
 from orchestra.compat.launch.conditions import IfCondition, UnlessCondition
 from orchestra.compat.launch.substitutions import (
     EnvironmentVariable,
@@ -119,14 +119,10 @@ _CONDITIONS = st.sampled_from(
 )
 _END = Shutdown()
 _PLACES = {"stdout": "screen", "stderr": "log"}
-_ARGUMENTS = st.fixed_dictionaries(
-    {"executable": _TEXTS},
+_OF_PROCESSES = st.fixed_dictionaries(
+    {},
     optional={
-        **dict.fromkeys(("package", "name", "namespace", "exec_name", "prefix", "cwd"), st.none() | _TEXTS),
-        "parameters": _PARAMETERS,
-        "remappings": _REMAPPINGS,
-        "arguments": st.none() | st.lists(_TEXTS, max_size=3),
-        "ros_arguments": st.none() | st.lists(_TEXTS, max_size=3),
+        **dict.fromkeys(("name", "prefix", "cwd"), st.none() | _TEXTS),
         "output": st.sampled_from(
             [
                 None,
@@ -144,7 +140,7 @@ _ARGUMENTS = st.fixed_dictionaries(
         "emulate_tty": st.sampled_from([None, True, False, "true"]),
         "respawn": st.sampled_from([True, False, "true"]) | _SUBS | _MIXED | _MIXED.map(tuple),
         "respawn_delay": st.sampled_from([None, 0, 2, 1.5, -1.0, float("inf"), "2"]),
-        "additional_env": st.none() | st.dictionaries(_WORDS, _TEXTS, max_size=2),
+        **dict.fromkeys(("env", "additional_env"), st.none() | st.dictionaries(_WORDS, _TEXTS, max_size=2)),
         "condition": _CONDITIONS,
         "shell": st.booleans(),
         "respawn_max_retries": st.sampled_from([-1, 0, 2, True, "2", -2]),
@@ -154,6 +150,20 @@ _ARGUMENTS = st.fixed_dictionaries(
         "on_exit": st.sampled_from([None, _END, [_END], [_END, _END], Shutdown(reason="why"), (_END,), []]),
     },
 )
+_COMMANDS = st.tuples(
+    st.fixed_dictionaries({"cmd": st.lists(_TEXTS, max_size=3) | _TEXTS}), _OF_PROCESSES
+).map(lambda both: both[0] | both[1])
+_OF_NODES = st.fixed_dictionaries(
+    {"executable": _TEXTS},
+    optional={
+        **dict.fromkeys(("package", "namespace", "exec_name"), st.none() | _TEXTS),
+        "parameters": _PARAMETERS,
+        "remappings": _REMAPPINGS,
+        "arguments": st.none() | st.lists(_TEXTS, max_size=3),
+        "ros_arguments": st.none() | st.lists(_TEXTS, max_size=3),
+    },
+)
+_ARGUMENTS = st.tuples(_OF_NODES, _OF_PROCESSES).map(lambda both: both[0] | both[1])
 _OF_LIFECYCLE_NODES = st.tuples(
     _ARGUMENTS,
     st.fixed_dictionaries(
@@ -179,8 +189,9 @@ _OF_COMPONENTS = st.fixed_dictionaries(
     _ARGUMENTS.map(lambda words: (Node, words))
     | _OF_LIFECYCLE_NODES.map(lambda words: (LifecycleNode, words))
     | _OF_COMPONENTS.map(lambda words: (ComposableNode, words))
+    | _COMMANDS.map(lambda words: (ExecuteProcess, words))
 )
-@settings(max_examples=400, deadline=None)
+@settings(max_examples=500, deadline=None)
 def test_the_model_is_the_one_of_the_constructor(made: tuple[type[Any], dict[str, Any]]) -> None:
     kind, keywords = made
     try:
@@ -202,7 +213,7 @@ def test_the_model_is_the_one_of_the_constructor(made: tuple[type[Any], dict[str
     assert _told(plain) == expected
     assert _is_plain(plain) or kind is ComposableNode  # whose condition may take a closer look
     # When somebody has looked at it, it still is.
-    if issubclass(kind, Node):
+    if issubclass(kind, ExecuteProcess):
         assert [*map(str, plain.cmd[0])] == [*map(str, ordinary.cmd[0])]
     else:
         assert [*map(str, plain.package)] == [*map(str, ordinary.package)]
@@ -248,6 +259,26 @@ def test_usual_lifecycle_nodes_are_made_so() -> None:
     assert node.node_autostart is True
     assert not _is_plain(node)
     assert not _is_plain(_made({**_USUAL, "on_exit": Shutdown(reason="why")}))
+
+
+def test_usual_processes_are_made_so_until_somebody_asks() -> None:
+    given = {name: _USUAL[name] for name in ("name", "output", "additional_env", "condition")}
+    process = _made({"cmd": ["echo", LaunchConfiguration("x")], "env": {"B": "2"}, **given}, ExecuteProcess)
+    assert _is_plain(process)
+    model = _model(process)
+    assert ([word.raw for word in model.cmd], model.env_only[0].name.raw) == (["echo", "$(var x)"], "B")
+    assert _is_plain(process)
+    process.cmd.append([TextSubstitution(text="-v")])
+    assert [word.raw for word in _model(process).cmd] == ["echo", "$(var x)", "-v"]
+    process = _made({"cmd": ["echo"]}, ExecuteProcess)
+    process._prepared_by(lambda: ("echo-1", ["echo"], None, {"A": "1"}))
+    assert (process.name, process.cmd, process.env) == ("echo-1", ["echo"], {"A": "1"})
+
+    class Mine(ExecuteProcess):
+        pass
+
+    for kind, more in ((Mine, {}), (ExecuteProcess, {"cached_output": True})):
+        assert not _is_plain(_made({"cmd": ["echo"], **more}, kind))
 
 
 def test_usual_components_are_made_so_until_somebody_asks_or_changes_something() -> None:

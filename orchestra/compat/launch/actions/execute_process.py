@@ -3,20 +3,27 @@
 from __future__ import annotations
 
 from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Final
 
-from orchestra.compat.launch.actions.execute_local import ExecuteLocal
 from orchestra.compat.launch.descriptions.executable import Executable
+from orchestra.compat.launch.plain_process import OF_PROCESSES, PlainProcess, words_of
+from orchestra.compat.launch_ros.made_later import Usual
+from orchestra.description.actions.executable import Executable as ExecutableModel
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
     from orchestra.compat.launch.substitution import Substitution
+    from orchestra.compat.launch_ros.plain_texts import Readers
     from orchestra.compat.text import Sub
 
+_READ: Final[Readers] = {**OF_PROCESSES, "cmd": words_of("cmd", empty=None), "name": "name"}
 
-class ExecuteProcess(ExecuteLocal):
+
+class ExecuteProcess(PlainProcess):
     """Start a program; the arguments are those of `launch.descriptions.Executable` and of `ExecuteLocal`."""
+
+    _usual = Usual(ExecutableModel, _READ, {"cmd": ("words", "cmd", None)}, ("cmd",))
 
     def __init__(
         self,

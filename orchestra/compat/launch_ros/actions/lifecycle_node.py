@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from orchestra.compat.launch.plain_process import known_flag
 from orchestra.compat.launch_ros.actions.node import Node
-from orchestra.compat.launch_ros.plain_nodes import USUAL, known_flag
+from orchestra.compat.launch_ros.plain_nodes import USUAL
 from orchestra.compat.values import scalar
 from orchestra.compat.wrong import WrongRuntime
 from orchestra.description.actions.lifecycle_node import LifecycleNode as LifecycleNodeModel
