@@ -148,6 +148,9 @@ def test_a_supervisor_that_is_stuck_is_killed_in_the_end_and_it_is_told_where_it
         run.send(signal.SIGINT)
         assert run.wait() == 1
         run.assert_gone()
-        assert "the supervisor does not answer (state S); it is killed after 8 s\n" in run.stderr
+        # On a busy machine it may still be about to wait.
+        assert re.search(
+            r"the supervisor does not answer \(state [RS]\); it is killed after 8 s\n", run.stderr
+        )
         assert "it was here:\n" in run.stderr
         assert "in stuck_when_the_run_begins" in run.stderr
