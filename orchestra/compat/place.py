@@ -145,7 +145,15 @@ class Arguments(Matched):
 
     def __init__(self, place: Place) -> None:
         self.place = place
-        self._spans = {}
+
+    if not TYPE_CHECKING:  # else any attribute would be one
+
+        def __getattr__(self, name: str) -> Any:
+            """Return the places that are known, none at first: few calls are ever asked for one."""
+            if name == "_spans":
+                self._spans = {}
+                return self._spans
+            raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
 
     @property
     def whole(self) -> Instructions:  # type: ignore[override] # nobody sets it

@@ -73,15 +73,20 @@ class Refusing:
     _made_at: tuple[CodeType, int]
     _place: Place
 
-    def _taken(self, keywords: dict[str, Any], caller: FrameType) -> bool:  # noqa: ARG002 - for subclasses
-        """Take the keywords of a call that nothing is wrong with; false where the constructor has to look at them."""
-        return False
-
-    def _keep(self, arguments: tuple[Any, ...], keywords: dict[str, Any]) -> bool:  # noqa: ARG002 - as above
+    def _keep(self, arguments: tuple[Any, ...], keywords: dict[str, Any]) -> bool:  # noqa: ARG002 - for subclasses
         """Keep the arguments of a call that nothing is wrong with; false where the constructor has to look at them.
 
         That is for the very class that has this method, not for those of users.
         """
+        return False
+
+    def _taken(
+        self,
+        arguments: tuple[Any, ...],  # noqa: ARG002 - as above
+        keywords: dict[str, Any],  # noqa: ARG002 - as above
+        caller: FrameType,  # noqa: ARG002 - as above
+    ) -> bool:
+        """Keep the arguments of a call that does not stand in code of which all calls are kept, where one can."""
         return False
 
     @classmethod
@@ -155,16 +160,20 @@ def _refusing(constructor: Callable[..., None]) -> Callable[..., None]:
             return
         else:
             keep = _keeping.get(type(self)) if _is_noted(code) else None
-        if keep is not None and keep(self, arguments, keywords):
-            self._made_at = code, caller.f_lasti
-            return
         try:
-            if arguments or not self._taken(keywords, caller):
-                called[0] = self, caller
-                constructor(self, *arguments, **keywords)
-                called[0] = NOBODY
+            if keep is not None:
+                self._made_at = code, caller.f_lasti
+                if keep(self, arguments, keywords):
+                    return
+                del self._made_at
+            elif self._taken(arguments, keywords, caller):
+                return
+            called[0] = self, caller
+            constructor(self, *arguments, **keywords)
+            called[0] = NOBODY
         except Exception as error:
             called[0] = NOBODY
+            vars(self).pop("_made_at", None)
             # Here, because only mistakes need it, and what it imports.
             from orchestra.compat.refused_arguments import settled  # noqa: PLC0415
 

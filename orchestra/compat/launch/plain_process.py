@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 import os
-from typing import TYPE_CHECKING, Any, ClassVar, Final
+from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.compat.building import unchecked
 from orchestra.compat.launch.actions.execute_local import OVERRIDE, ExecuteLocal
@@ -24,37 +24,28 @@ from orchestra.compat.launch_ros.plain_texts import (
     standing_at,
     word,
 )
-from orchestra.compat.place import Arguments, Key, Place, ValueOf
+from orchestra.compat.place import Arguments, Key, ValueOf
 from orchestra.description.outputs import OUTPUTS, PLACES, STREAMS
 from orchestra.description.parts import Pair
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
-    from types import FrameType
 
     from orchestra.compat.launch_ros.plain_texts import Readers
     from orchestra.description.entity import Action as Model
 
 
 class PlainProcess(MadeLater, ExecuteLocal):
-    """What a process is before somebody asks for more than its model: then it is constructed from its arguments.
+    """What a process is before somebody asks for more than its model: then it is constructed from its arguments."""
 
-    That is for the very class that says what is `_usual`: those of users may look at what the constructor keeps.
-    """
-
-    _usual: ClassVar[Usual]
-
-    def _taken(self, keywords: dict[str, Any], caller: FrameType) -> bool:
-        kind = type(self)
-        usual = vars(kind).get("_usual")
-        if usual is None or _says_output(os.environ):
+    def _keep(self, arguments: tuple[Any, ...], keywords: dict[str, Any]) -> bool:
+        if arguments or _says_output(os.environ):
             return False
-        place = Place(caller.f_code, caller.f_lasti, kind)
-        made = usual.made(keywords, place)
+        made = self._usual.made(keywords, self._made_at, type(self))
         if made is None:
             return False
-        condition = keywords.get("condition")
-        self.__dict__ = {"_place": place, "_plain": made, "_Action__condition": condition}
+        self._plain = made
+        self._Action__condition = keywords.get("condition")
         return True
 
     def _construct(self) -> None:
@@ -75,7 +66,7 @@ class PlainProcess(MadeLater, ExecuteLocal):
         made: Made | None = own.get("_plain")
         if made is not None:  # nobody has asked for more
             if len(own) == _OF_PLAIN:  # nor set something
-                model: Model | None = _model(made, type(self)._usual, self._place, common)
+                model: Model | None = _model(made, self._usual, common)
                 if model is not None:
                     return model
             self._construct()
@@ -90,7 +81,7 @@ def _says_output(environ: Any) -> bool:
     return OVERRIDE in environ if known is None else _OVERRIDE in known
 
 
-def _model(made: Made, usual: Usual, place: Place, common: Mapping[str, Any]) -> Any:
+def _model(made: Made, usual: Usual, common: Mapping[str, Any]) -> Any:
     """Return the model; `common` are the fields that every action has. None where an argument is usual no more."""
     fields = made.fields(usual)
     if fields is None:
@@ -98,10 +89,10 @@ def _model(made: Made, usual: Usual, place: Place, common: Mapping[str, Any]) ->
     condition = unchecked(common)
     if condition is None:
         said = {name: value for name, value in fields.items() if value is not None}
-        return usual.model.at(place.span, **said, **common)
+        return usual.model.at(made.place.span, **said, **common)
     if condition:
         fields |= condition
-    return entity(usual.model, fields, standing_at(made.call, (), common["origin"]))
+    return entity(usual.model, fields, standing_at(made, (), common["origin"]))
 
 
 def _prefix(name: str, value: Any, call: Arguments, fields: dict[str, Any], kept: dict[str, Any]) -> None:
@@ -232,7 +223,7 @@ def _environment(field: str) -> Callable[..., None]:
 
 
 _OVERRIDE: Final = OVERRIDE.encode()
-# What a process has as long as it is plain: its place, its condition, and what it is made of.
+# What a process has as long as it is plain: where it was called, its condition, and what it is made of.
 _OF_PLAIN: Final = 3
 _NUMBERS: Final = (int, float)
 _STREAMS: Final = frozenset(STREAMS)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any, ClassVar, Final
 
 from orchestra.compat.launch_ros.plain_texts import read, unnoted
 from orchestra.compat.place import Arguments, Place
@@ -11,32 +11,41 @@ from orchestra.compat.text import is_changed, shown
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
+    from types import CodeType, FrameType
 
     from orchestra.compat.launch_ros.call_code import Form
     from orchestra.compat.launch_ros.plain_texts import Readers
     from orchestra.description.entity import Entity
 
 
-class Made:
-    """The arguments of which the fields of a model are made, with lists and dictionaries of its own.
+class Made(Arguments):
+    """The arguments of a call of which the fields of a model are made, with lists and dictionaries of its own.
 
-    `resolved` and `prepared` give what a visit has come to, where that is told; `condition` is that of a component.
+    They stand where a `kind` was made `at`. `resolved` and `prepared` give what a visit has come to, where that is
+    told; `condition` is that of a component.
     """
 
-    __slots__ = ("_fields", "_form", "_kept", "_shown", "call", "condition", "prepared", "resolved")
+    __slots__ = ("_fields", "_form", "_kept", "_shown", "at", "condition", "kind", "prepared", "resolved")
+    __init__ = object.__init__  # launch files make thousands, which are filled in one place
 
+    at: tuple[CodeType, int]
+    kind: type[Any]
     condition: Any
+    resolved: Callable[[], tuple[Any, ...]] | None
+    prepared: Callable[[], tuple[Any, ...]] | None
+    _kept: Any
+    _fields: dict[str, Any] | None
+    _form: Form | None
+    _shown: int | None
 
-    def __init__(
-        self, call: Arguments, kept: Any, fields: dict[str, Any] | None, form: Form | None, *, noted: bool
-    ) -> None:
-        self.call = call
-        self._kept = kept
-        self._fields = fields
-        self._form = form
-        self._shown = shown[0] if noted else None
-        self.resolved: Callable[[], tuple[Any, ...]] | None = None
-        self.prepared: Callable[[], tuple[Any, ...]] | None = None
+    if not TYPE_CHECKING:  # else any attribute would be one
+
+        def __getattr__(self, name: str) -> Any:
+            """Return the place, which few calls are asked for; None where no visit has told what it has come to."""
+            if name == "place":
+                self.place = Place(*self.at, self.kind)
+                return self.place
+            return None if name in _TOLD else super().__getattr__(name)
 
     @property
     def given(self) -> dict[str, Any]:
@@ -56,11 +65,11 @@ class Made:
         fields, self._fields = self._fields, _GONE
         if self._shown == shown[0] and not is_changed():
             if fields is None and self._form is not None:
-                return self._form.make(self._kept, self.call)
+                return self._form.make(self._kept, self)
             if fields:
                 return fields
         fields = usual.unwritten.copy()
-        return None if read(self.given, self.call, usual.readers, fields) is None else fields
+        return None if read(self.given, self, usual.readers, fields) is None else fields
 
 
 class Usual:
@@ -89,21 +98,30 @@ class Usual:
         """Return those of a constructor that has the same ones and more, which are read by `readers`."""
         return Usual(model, {**self.readers, **readers}, self._series, needed)
 
-    def made(self, given: dict[str, Any], place: Place) -> Made | None:
+    def made(self, given: dict[str, Any], at: tuple[CodeType, int], kind: type[Any]) -> Made | None:
         """Return what an object is made of that is constructed at a place; None where a keyword is not usual."""
-        call, names, before = Arguments(place), tuple(given), unnoted[0]
+        made: Made = Made()
+        made.at = at
+        made.kind = kind
+        names, before = tuple(given), unnoted[0]
         forms = self._forms.get(names, ())
         for form in forms:
-            leaves = form.take(given, call)
+            leaves = form.take(given, made)
             if leaves is not None:
-                return Made(call, leaves, None, form, noted=before == unnoted[0])
-        fields = self.unwritten.copy()
-        kept = read(given, call, self.readers, fields)
+                made._kept = leaves
+                made._fields = None
+                made._form = form
+                made._shown = shown[0] if before == unnoted[0] else None
+                return made
+        made._fields = fields = self.unwritten.copy()
+        made._kept = kept = read(given, made, self.readers, fields)
         if kept is None or None in [fields[name] for name in self._needed]:
             return None
         if len(forms) < _MOST_FORMS:
             self._learn(names, kept)
-        return Made(call, kept, fields, None, noted=before == unnoted[0])
+        made._form = None
+        made._shown = shown[0] if before == unnoted[0] else None
+        return made
 
     def _learn(self, names: tuple[str, ...], given: dict[str, Any]) -> None:
         """Learn the form of a call where there have been some like it. Only every few calls are looked at."""
@@ -122,16 +140,35 @@ class Usual:
 
 
 class MadeLater(Refusing):
-    """An object that has a place, and `_plain` until it is constructed."""
+    """An object that knows where it was made, and is `_plain` until it is constructed.
 
-    _place: Place
+    That is for the very class that says what is `_usual`: those of users may look at what the constructor keeps.
+    """
+
+    _usual: ClassVar[Usual]
+
+    @classmethod
+    def _keeps(cls) -> Callable[[Any, tuple[Any, ...], dict[str, Any]], bool] | None:
+        return cls._keep if "_usual" in vars(cls) else None
+
+    def _taken(self, arguments: tuple[Any, ...], keywords: dict[str, Any], caller: FrameType) -> bool:
+        if "_usual" not in vars(type(self)):
+            return False
+        self._made_at = caller.f_code, caller.f_lasti
+        if self._keep(arguments, keywords):
+            return True
+        del self._made_at
+        return False
 
     if not TYPE_CHECKING:  # else any attribute would be one
 
         def __getattr__(self, name: str) -> Any:
-            """Return what the constructor makes."""
-            if "_plain" not in vars(self):
+            """Return the place, or what the constructor makes."""
+            made = vars(self).get("_plain")
+            if made is None:
                 return super().__getattr__(name)
+            if name == "_place":
+                return made.place
             self._construct()
             return getattr(self, name)
 
@@ -139,13 +176,15 @@ class MadeLater(Refusing):
         """Do what the constructor does; what users have set since stays."""
         own = vars(self)
         made: Made = own.pop("_plain")
+        del own["_made_at"]
         self.__dict__ = {}
-        with standing(own["_place"]):
+        with standing(made.place):
             self.__init__(**made.given)  # type: ignore[misc] # with the keywords of the subclass
         vars(self).update(own)
 
 
 _GONE: Final[dict[str, Any]] = {}
+_TOLD: Final = frozenset({"prepared", "resolved"})
 # A form takes as long to be learned as some fifty calls to be read; there may be no other call of that form.
 _EVERY: Final = 4
 _ENOUGH: Final = 6

@@ -2,40 +2,27 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, ClassVar, Final
+from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.compat.building import condition_fields
 from orchestra.compat.launch_ros.made_later import Made, MadeLater, Usual
 from orchestra.compat.launch_ros.plain_parameters import parameters, remaps
 from orchestra.compat.launch_ros.plain_texts import entity, left, standing_at
-from orchestra.compat.place import Place
 from orchestra.description.components import ComposableNode
 
 if TYPE_CHECKING:
-    from types import FrameType
-
     from orchestra.compat.launch_ros.plain_texts import Readers
 
 
 class PlainComponent(MadeLater):
-    """What a component is before somebody asks for more than its model: then it is constructed from its arguments.
+    """What a component is before somebody asks for more than its model: then it is constructed from its arguments."""
 
-    That is for the very class that says what is `_usual`, which has all of its own in `_place` and `_plain` until then.
-    """
-
-    _usual: ClassVar[Usual]
-
-    def _taken(self, keywords: dict[str, Any], caller: FrameType) -> bool:
-        kind = type(self)
-        usual = vars(kind).get("_usual")
-        if usual is None:
-            return False
-        place = Place(caller.f_code, caller.f_lasti, kind)
-        made = usual.made(keywords, place)
+    def _keep(self, arguments: tuple[Any, ...], keywords: dict[str, Any]) -> bool:
+        made = None if arguments else self._usual.made(keywords, self._made_at, type(self))
         if made is None:
             return False
         made.condition = keywords.get("condition")
-        self.__dict__ = {"_place": place, "_plain": made}
+        self._plain = made
         return True
 
     def _plain_model(self) -> ComposableNode | None:
@@ -55,11 +42,11 @@ class PlainComponent(MadeLater):
         if fields is None:
             return None
         values = fields | {_CONDITIONS[word]: text for word, text in said.items()}
-        model: ComposableNode = entity(ComposableNode, values, standing_at(made.call, (), self))
+        model: ComposableNode = entity(ComposableNode, values, standing_at(made, (), self))
         return model
 
 
-# What a component has as long as it is plain: its place, and what it is made of.
+# What a component has as long as it is plain: where it was called, and what it is made of.
 _OF_PLAIN: Final = 2
 _CONDITIONS: Final = {"if": "if_", "unless": "unless"}
 _READ: Final[Readers] = {

@@ -290,5 +290,5 @@ def _short(entity: Any, error: TypeError) -> str:
 
 def _span(entity: Any, run: Resolution, around: Place | None = None) -> Span:
     own = getattr(entity, "__dict__", {})
-    place: Place | None = own.get("_place", around) if own.get("_as_given") is None else entity._place
+    place: Place | None = entity._place if "_made_at" in own else own.get("_place", around)
     return place.span if place is not None else point(displayed(run.context.file or ""))

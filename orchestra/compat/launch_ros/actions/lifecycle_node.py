@@ -13,7 +13,6 @@ from orchestra.description.actions.lifecycle_node import LifecycleNode as Lifecy
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
-    from types import FrameType
 
     from orchestra.compat.text import Sub
     from orchestra.description.entity import Action as Model
@@ -36,8 +35,8 @@ class LifecycleNode(Node):
         super().__init__(name=name, namespace=namespace, **kwargs)
         self.__autostart = autostart
 
-    def _taken(self, keywords: dict[str, Any], caller: FrameType) -> bool:
-        return "namespace" in keywords and super()._taken(keywords, caller)
+    def _keep(self, arguments: tuple[Any, ...], keywords: dict[str, Any]) -> bool:
+        return "namespace" in keywords and super()._keep(arguments, keywords)
 
     @property
     def node_autostart(self) -> bool | Sub:
