@@ -41,7 +41,7 @@ _EMPTY: Final = re.compile(rb"def [^\n:]*=[ \t]*(?:\[[ \t]*\]|\{[ \t]*\}|list\(\
 _ITERATORS: Final = frozenset({"filter", "map", "zip"})
 _CLOSING: Final = frozenset((b")", b"]", b"}"))
 _ODD: Final = (b"\t", b"\r", b"\f", b"\v")  # blanks
-_HANDLERS: Final = (b"OnProcess", b"OnShutdown", b"OnExecution")
+_HANDLERS: Final = (b"nProcess", b"nShutdown", b"nExecution")  # behind the first letter, which is rare
 # Two dictionaries side by side in a list of parameters, and where such a list begins.
 _SIDE_BY_SIDE: Final = pattern(rb"parameters\s{0,4}=\s{0,4}\[[^\]]{0,800}\}\s{0,80},\s{0,80}\{")
 _PARAMETERS: Final = pattern(rb"parameters\s{0,4}=\s{0,4}\[")
@@ -150,7 +150,7 @@ def _calls() -> tuple[re.Pattern[bytes], bytes, list[bytes]]:
 
 def has_event_functions(_code: CodeType, source: bytes) -> bool:
     """Return whether a function may be called with what an event handler waits for."""
-    has_handler = b"On" in source and any(map(source.__contains__, _HANDLERS))
+    has_handler = any(piece.startswith(_HANDLERS) for piece in source.split(b"O")[1:])
     return has_handler and _OF_EVENT.search(source) is not None
 
 
