@@ -1,4 +1,4 @@
-"""Names of environment variables, where nothing can be set whose name holds a `=`, and their values."""
+"""Names of environment variables, where nothing can be set whose name is empty or holds a `=`, and their values."""
 
 from __future__ import annotations
 
@@ -17,7 +17,10 @@ _OF_A_SHELL: Final = pattern(r"(?:(?<=:)|^)\$(?:\{([A-Za-z_]\w*)\}|([A-Z_][A-Z0-
 
 
 def is_faulty_name(name: str, written: Template, run: Resolution) -> bool:
-    """Report a name that holds `=`; return whether it does."""
+    """Report a name that is empty or holds `=`; return whether it is one."""
+    if not name:
+        run.problems.error(Code.BAD_NAME, "the name of a variable is empty", run.place(written))
+        return True
     if "=" not in name:
         return False
     message = f"'{name}' cannot be the name of a variable: it holds '='"

@@ -203,3 +203,18 @@ def test_words_may_be_a_list(tmp_path: Path) -> None:
     program, node = outcome(tmp_path, text).plan.processes
     assert program.command == ("echo", "a b", "c d")
     assert node.command == ("sleep", "1", "2 3", "--ros-args", "--log-level", "c d", "--ros-args")
+
+
+@pytest.mark.parametrize(("name", "told"), [("''", "is empty"), ("A=B", "it holds '='")])
+@pytest.mark.parametrize(
+    "action",
+    [
+        "set_env: {name: NAME, value: y}",
+        "append_env: {name: NAME, value: y}",
+        "executable: {cmd: sleep 1, env: [{name: NAME, value: y}]}",
+    ],
+)
+def test_a_name_that_no_variable_can_have_is_told(name: str, told: str, action: str, tmp_path: Path) -> None:
+    text = f"launch:\n- {action.replace('NAME', name)}\n- executable: {{cmd: sleep 1}}"
+    (problem,) = outcome(tmp_path, text).problems
+    assert (problem.code, told in problem.message) == (Code.BAD_NAME, True)

@@ -6,6 +6,7 @@ import os
 from typing import TYPE_CHECKING
 
 from orchestra.resolve.context import Poison
+from orchestra.resolve.environment_names import is_faulty_name
 
 if TYPE_CHECKING:
     from orchestra.description.actions.append_env import AppendEnv
@@ -18,7 +19,7 @@ def visit(action: AppendEnv, run: Resolution) -> None:
     with run.scope.tracing() as reads:
         value = run.text(action.value)
     prepend, separator = run.flag(action.prepend, default=False), run.text(action.separator)
-    if not isinstance(name, str):
+    if not isinstance(name, str) or is_faulty_name(name, action.name, run):
         return
     if not isinstance(value, str) or not isinstance(prepend, bool) or isinstance(separator, Poison):
         run.found.lost.add(name)
