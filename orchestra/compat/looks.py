@@ -12,7 +12,7 @@ from orchestra.compat.idle_names import may_have_idle_actions
 from orchestra.compat.signs import codes_in, goes_through, has_event_functions, has_idle_logic, sets_tuples
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Callable
     from types import ModuleType
 
     from orchestra.compat.signs import Codes
@@ -170,8 +170,7 @@ LOOKS: Final[dict[str, Callable[[CodeType, bytes], bool]]] = {
     "misused": _may_be_misused,
 }
 # By the looks that say whether a file may have such slips: the modules that tell of them.
-OF_CODE: Final = {"misused": "misused"}
-OF_TEXTS: Final = {
+_OF_TEXTS: Final = {
     "foreign": "foreign_substitutions",
     "roots": "late_roots",
     "joined": "joined_words",
@@ -182,12 +181,18 @@ OF_TEXTS: Final = {
 }
 
 
-def tell_slips(
-    compiled: Compiled, kinds: Mapping[str, str], path: str, problems: Problems, chain: tuple[Span, ...]
-) -> None:
-    """Warn of the slips of some kinds in a file; `chain` are the includes on the way."""
-    for look, module in kinds.items():
+def tell_misused(compiled: Compiled, path: str, problems: Problems, chain: tuple[Span, ...]) -> None:
+    """Warn of what code of a file misuses; `chain` are the includes on the way."""
+    if compiled.may("misused"):
+        from orchestra.compat.misused import tell  # noqa: PLC0415 - only what may be a mistake needs it
+
+        tell(compiled, path, problems, chain)
+
+
+def tell_slips(compiled: Compiled, path: str, problems: Problems, chain: tuple[Span, ...]) -> None:
+    """Warn of slips in the texts of a file; `chain` are the includes on the way."""
+    for look, module in _OF_TEXTS.items():
         if compiled.may(look):
-            from importlib import import_module  # noqa: PLC0415 - only what may be a mistake needs it
+            from importlib import import_module  # noqa: PLC0415 - as above
 
             import_module(f"orchestra.compat.{module}").tell(path, problems, chain)

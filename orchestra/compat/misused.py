@@ -8,7 +8,7 @@ from __future__ import annotations
 import re
 from contextlib import suppress
 from functools import cache
-from itertools import chain
+from itertools import chain, compress
 from typing import TYPE_CHECKING, Final
 
 from orchestra.compat.signs import codes_in, gives_twice, has_text, is_behind, places_of
@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from collections.abc import Set as AbstractSet
     from types import CodeType
 
+    from orchestra.compat.looks import Compiled
     from orchestra.compat.signs import Codes
     from orchestra.errors import Problems
     from orchestra.location import Span
@@ -35,9 +36,15 @@ _ASKED_AT_ONCE: Final = pattern(
     rb"(?:\b(?:if|elif|while|not|and|or|assert)\b|\bbool\()[^\n=<>]{0,120}"
     rb"(?:perform(?:_substitution)?\(|launch_configurations)[^\n=<>]{0,80}[)\]][ \t]*(?:\)|:|\n|and\b|or\b|else\b)"
 )
-_OTHER: Final = pattern(
-    rb"(?:[=!]=|\bis(?: not)?)[ \t]*(?:True\b|False\b|\d|'[Tt]rue'|\"[Tt]rue\"|'[Ff]alse'|\"[Ff]alse\")"
-)
+_OTHER: Final = pattern(rb"(?:[=!]=|\bis(?: not)?)[ \t]*(?:True\b|False\b|\d)")
+_TRUTH: Final = pattern(rb"""(?:[=!]=|\bis(?: not)?)[ \t]*['"](?:[Tt]rue|[Ff]alse)['"]""")
+_TRUTHS: Final = pattern(rb"""['"](true|false)['"]""", re.IGNORECASE)
+# Where something is compared with a text, or a text with something; and how that is mostly written.
+_BESIDE_TEXT: Final = pattern(rb"""(?:[=!]=|\bis(?:\s+not)?\b)[\s(\\]*[bBfFrRuU]{0,2}['"]""")
+_BEHIND_TEXT: Final = pattern(rb"""['"][\s)\\]*(?:[=!]=|\bis\b)""")
+_WITH_TEXT: Final = pattern(rb"""(?:[=!]=|is(?:[ ]not)?)[ ]*(['"])([^'"\\\n]*)\1(?![\s\\]*['"])""")
+_CHOICES: Final = pattern(rb"""choices[ ]*=[ ]*[\[(]((?:\s*(?:'[^'\\\n]*'|"[^"\\\n]*")\s*,?)+)\s*[\])]""")
+_TEXT: Final = pattern(rb"""'([^'\n]*)'|"([^"\n]*)\"""")
 _METHODS: Final = frozenset(
     {
         *("perform", "evaluate", "lower", "upper", "strip", "casefold", "exists", "isfile"),
@@ -49,7 +56,7 @@ _CONDITIONS: Final = frozenset(
     {"IfCondition", "UnlessCondition", "LaunchConfigurationEquals", "LaunchConfigurationNotEquals"}
 )
 _ASKING: Final = (b"if", b"not", b"and", b"or")
-_WORD: Final = 3
+_ENDING: Final = len("Condition")
 _QUOTE: Final = pattern(rb"(?:^|[^\w{])(?:'[^'{}\\]*|\"[^\"{}\\]*)$")
 _IN_LOOP: Final = pattern(
     rb"^([ \t]*)for [^\n]*:[ \t]*\n(\1[ \t]+)\S[^\n]*\n(?:\2[ \t]*\S[^\n]*\n|[ \t]*\n)*?\2return\b",
@@ -99,6 +106,12 @@ _TELLING: Final = {"texts_as_truths": "tell_truths"} | {
         *("left_out", "nested_keys", "nested_words", "returning_none"),
     )
 }
+# The ones that each of the `_signs` is for.
+_TOLD_BY: Final = (
+    *(("texts_as_truths",), ("uncalled",), ("uncalled",), ("without_f",), ("late_loops",), ("nested_keys",)),
+    *(("nested_keys",), ("nested_words",), ("waiting_in_vain",), ("left_out",), ("returning_none",)),
+    *(("left_out", "nested_words"), ("unreached",)),
+)
 
 
 def may_be_misused(code: CodeType, source: bytes) -> bool:
@@ -134,14 +147,14 @@ def _signs(codes: Codes, source: bytes) -> Iterator[bool]:
     yield _is_asked_for(names & _CONDITIONS, source)
     yield has_braces and _has_braces(source)
     has_loop = b"for " in source
-    is_later = has_loop and (b"function" in source or b"on_" in source)
-    yield is_later and (b"lambda" in source or b"  def " in source)
+    is_later = has_loop and (b"lambda" in source or b"  def " in source)
+    yield is_later and (b"function" in source or b"on_" in source)
     has_keys = has_dots and _ENDS_DOTTED.search(source) is not None
     yield has_keys and _DOTTED.search(source) is not None
     yield gives_twice(source)
     places = [at for word in (b"arguments", b"cmd") for at in places_of(word, source)]
-    has_lists = any(_holds_list(source, at) for at in places) and any(sign in source for sign in _IN_LISTS)
-    yield has_lists and any(_IN_WORDS.match(source, at) for at in places)
+    has_list = any(_holds_list(source, at) and _IN_WORDS.match(source, at) for at in places)
+    yield has_list and any(sign in source for sign in _IN_LISTS)
     yield b"target_" in source and not set(_WAITED_FOR.findall(source)).isdisjoint(_DONE.findall(source))
     yield _stands_alone(_ACTIONS & set[str]().union(*_left_alone(codes)), source)
     yield bool(names & _CHANGING) and _takes_nothing(source)
@@ -157,16 +170,47 @@ def _holds_list(source: bytes, at: int) -> bool:
 
 def _is_asked_for(conditions: AbstractSet[str], source: bytes) -> bool:
     """Return whether one of some conditions is asked whether it is true where it is made."""
-    made = [f" {name}(".encode() for name in conditions]
-    places = (at for word in made for at in places_of(word, source))
-    return any(source.endswith(_ASKING, max(at - _WORD, 0), at) for at in places)
+    made: dict[bytes, tuple[bytes, ...]] = {}
+    for name in conditions:  # several end alike, and are looked for at once
+        begin, end = name[:-_ENDING].encode(), name[-_ENDING:].encode()
+        made[end] = (*made.get(end, ()), *[b"%b %b" % (asking, begin) for asking in _ASKING])
+    return any(
+        piece.endswith(asked) for end, asked in made.items() for piece in source.split(end + b"(")[:-1]
+    )
 
 
 def _asks_for_texts(source: bytes) -> bool:
     """Return whether the text of an argument may be asked whether it is true, or compared with what it never is."""
     names = set(_SET.findall(source))
     is_asked = not names.isdisjoint(_ASKED.findall(source)) or _ASKED_AT_ONCE.search(source) is not None
-    return is_asked or _OTHER.search(source) is not None or b"choices" in source
+    if is_asked or _OTHER.search(source) is not None:
+        return True
+    has_choices, has_truths = b"choices" in source, _TRUTH.search(source) is not None
+    if (has_choices or has_truths) and _ASKED.search(source) is not None:
+        return True
+    return (has_choices and _compares(source)) or (has_truths and _is_written_apart(source))
+
+
+def _is_written_apart(source: bytes) -> bool:
+    """Return whether `true` or `false` stand in texts with other letters as well."""
+    written = {*_TRUTHS.findall(source)}
+    return len(written) > len({word.lower() for word in written})
+
+
+def _compares(source: bytes) -> bool:
+    """Return whether something is compared with a text that is not among all choices, as far as that is plain."""
+    if _BEHIND_TEXT.search(source) is not None:
+        return True
+    compared = set[bytes]()
+    for beside in _BESIDE_TEXT.finditer(source):
+        text = _WITH_TEXT.match(source, beside.start())
+        if text is None:
+            return True
+        compared.add(text[2])
+    choices = [{*chain(*_TEXT.findall(listed))} for listed in _CHOICES.findall(source)]
+    if not compared:
+        return False
+    return len(choices) < source.count(b"choices") or any(not compared <= known for known in choices)
 
 
 def _has_braces(source: bytes) -> bool:
@@ -238,15 +282,17 @@ def _is_of_name(character: bytes) -> bool:
     return character.isalnum() or character == b"_"
 
 
-def tell(path: str, problems: Problems, chain: tuple[Span, ...]) -> None:
-    """Report what a launch file misuses."""
+def tell(compiled: Compiled, path: str, problems: Problems, includes: tuple[Span, ...]) -> None:
+    """Report what a launch file misuses: what there is a sign of is looked for."""
     # Here, because only what may be a mistake needs them, and what they import.
     from importlib import import_module  # noqa: PLC0415
 
     from orchestra.compat.syntax_trees import tree_of  # noqa: PLC0415
 
-    tree = tree_of(path)
+    signs = _signs(codes_in(compiled.code), compiled.source)
+    found = {*chain.from_iterable(compress(_TOLD_BY, signs))}
+    tree = tree_of(path) if found else None
     for module, name in _TELLING.items():
-        if tree is not None:
+        if tree is not None and module in found:
             with suppress(RecursionError):  # what is put together of a thousand pieces is left alone
-                getattr(import_module(f"orchestra.compat.{module}"), name)(path, tree, problems, chain)
+                getattr(import_module(f"orchestra.compat.{module}"), name)(path, tree, problems, includes)

@@ -17,7 +17,7 @@ from orchestra.compat.explanation import told
 from orchestra.compat.idle_names import has_idle_actions
 from orchestra.compat.launch.launch_description import LaunchDescription
 from orchestra.compat.launch.launch_description_entity import LaunchDescriptionEntity
-from orchestra.compat.looks import OF_CODE, OF_TEXTS, Compiled, has_doubled_keys, tell_slips
+from orchestra.compat.looks import Compiled, has_doubled_keys, tell_misused, tell_slips
 from orchestra.compat.place import show
 from orchestra.compat.refusing import collecting, is_lost
 from orchestra.compat.reported import CARRYING
@@ -70,7 +70,7 @@ def read(path: str, problems: Problems, included_from: tuple[Span, ...]) -> Desc
         return _described(path, file, made)
     if getattr(vars(module).get(CARRYING), "has_guessed", False):
         return None
-    tell_slips(compiled, OF_CODE, path, problems, included_from)
+    tell_misused(compiled, path, problems, included_from)
     message, *notes = _undescribed(module, made, file)
     where, meant = _undescribed_at(module, made, at)
     problems.error(
@@ -159,8 +159,8 @@ def _ran(
 
                 tell_keywords(path, FUNCTION, problems, included_from)
                 if ran is not None:
-                    for kinds in (OF_CODE, OF_TEXTS):
-                        tell_slips(ran, kinds, path, problems, included_from)
+                    tell_misused(ran, path, problems, included_from)
+                    tell_slips(ran, path, problems, included_from)
                 return None
 
 
@@ -173,7 +173,7 @@ def _look_for_slips(
     module: ModuleType, compiled: Compiled, path: str, problems: Problems, included_from: tuple[Span, ...]
 ) -> None:
     """Warn of what code does in vain, or surely does not mean: actions that are added to nothing, and the like."""
-    tell_slips(compiled, OF_CODE, path, problems, included_from)
+    tell_misused(compiled, path, problems, included_from)
     # Here, because only what may be a mistake needs them.
     may, source = compiled.may, compiled.source
     if may("idle") and has_idle_actions(module, source):
@@ -184,7 +184,7 @@ def _look_for_slips(
         from orchestra.compat.doubled_keys import tell_doubled_keys  # noqa: PLC0415
 
         tell_doubled_keys(path, problems, included_from)
-    tell_slips(compiled, OF_TEXTS, path, problems, included_from)
+    tell_slips(compiled, path, problems, included_from)
 
 
 def _undescribed_at(module: ModuleType, made: object, at: Span) -> tuple[Span, str | None]:

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import random
+import warnings
+from importlib import import_module
 from typing import TYPE_CHECKING
 
 import pytest
 
 from orchestra.compat import syntax_trees
-from orchestra.compat.looks import Compiled, has_doubled_keys, has_joined_words
+from orchestra.compat.looks import Compiled, has_doubled_keys, has_joined_words, tell_misused
 from orchestra.compat.signs import gives_twice, is_behind
 from orchestra.errors import Problems
 from orchestra.pipeline import collect, inputs_from
@@ -159,3 +161,51 @@ def test_a_sound_file_takes_no_syntax_tree(tmp_path: Path) -> None:
     assert not [*problems]
     assert len(plan.processes) == 5
     assert syntax_trees._tree.cache_info().misses == before
+
+
+_PERFORMED = "def setup(context):\n    mode = LaunchConfiguration('mode').perform(context)\n    if {test}:\n        return []\n"
+_DECLARED = "DeclareLaunchArgument('mode', default_value={default}{choices})\n"
+
+
+@pytest.mark.parametrize(
+    ("test", "default", "choices", "may"),
+    [
+        ("mode == 'real'", "'sim'", ", choices=['sim', 'real']", False),
+        ('mode != "real"', "'sim'", ", choices=[\n    'sim',\n    'real',\n]", False),
+        ("mode == 'rael'", "'sim'", ", choices=['sim', 'real']", True),
+        ("'rael' == mode", "'sim'", ", choices=['sim', 'real']", True),
+        ("mode == ('rael')", "'sim'", ", choices=['sim', 'real']", True),
+        ("mode is 'rael'", "'sim'", ", choices=['sim', 'real']", True),
+        ("mode == r'rael'", "'sim'", ", choices=['sim', 'real']", True),
+        ("mode == 'sim' 'real'", "'sim'", ", choices=['sim', 'real']", True),
+        ("mode == 'sim'", "'sim'", ", choices=('real',), description=''.join(['sim'])", True),
+        ("mode", "'true'", ", choices=['true', 'false']", True),
+        ("mode", "'true'", "", True),
+        ("mode == 'true'", "'true'", "", False),
+        ("mode == 'True'", "'true'", "", True),
+        ("mode == True", "'true'", "", True),
+        ("mode == 'rael'", "'sim'", "", False),
+    ],
+)
+def test_texts_that_code_compares_are_looked_for(test: str, default: str, choices: str, may: bool) -> None:
+    text = _PERFORMED.format(test=test) + _DECLARED.format(default=default, choices=choices)
+    with warnings.catch_warnings(action="ignore"):  # `is` with a text
+        compiled = Compiled(compile(text, "file.launch.py", "exec"), text.encode(), {})
+    assert compiled.may("misused") is may
+
+
+@pytest.mark.parametrize("other", ["", "texts = ['a']\nwords = ['b', texts]\n"])
+def test_only_what_there_is_a_sign_of_is_looked_for(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, other: str
+) -> None:
+    """A file that is asked for its texts is not looked through for what else people do."""
+    asked: list[str] = []
+    for module in ("texts_as_truths", "left_out", "nested_words", "uncalled"):
+        told = import_module(f"orchestra.compat.{module}")
+        name = "tell_truths" if module == "texts_as_truths" else f"tell_{module}"
+        monkeypatch.setattr(told, name, lambda *_, module=module: asked.append(module))
+    text = _PERFORMED.format(test="mode") + other
+    file = tmp_path / "file.launch.py"
+    file.write_text(text)
+    tell_misused(Compiled(compile(text, str(file), "exec"), text.encode(), {}), str(file), Problems(), ())
+    assert asked == ["texts_as_truths", *(["left_out", "nested_words"] if other else [])]
