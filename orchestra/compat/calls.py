@@ -118,8 +118,10 @@ class CallSubstitution(Substitution):
 
     def _written(self) -> str:
         """Return how one is written that has its arguments as they were given."""
-        whole: Template = self._twin(self._as_given or self._given_again())._looked_at()
-        return whole.raw
+        twin = self._twin(self._as_given or self._given_again())
+        whole: Template | None = twin._looked_at()
+        raw: str = twin._raw() if whole is None else whole.raw
+        return raw
 
     def _given_again(self) -> tuple[tuple[Any, ...], dict[str, Any]]:
         """Return what may be given to make another one that is known as the same."""

@@ -41,6 +41,7 @@ _SERIES: Final = frozenset({list, tuple})
 _SEVERAL: Final = 2
 _MOST: Final = 4096
 _VARIABLE, _PATH = "var", "path-join"
+LIST: Final = ""  # what several are known by as one component of a path, in the place of a name
 # Kinds of substitutions with what performs them: where that is still so, no code of launch files does.
 _performing: Final[dict[type[Substitution], Any]] = {}
 # These kinds, and texts, which are known as themselves.
@@ -187,7 +188,10 @@ def _pieces(known: Iterable[Any], names: list[str], packages: list[tuple[str, st
             continue
         name, *arguments = item
         if name == _PATH:
-            found.append(PlainPath(tuple([_pieces((each,), names, packages) for each in arguments])))
+            components = [
+                each[1:] if type(each) is tuple and each[0] == LIST else (each,) for each in arguments
+            ]
+            found.append(PlainPath(tuple([_pieces(each, names, packages) for each in components])))
             continue
         if name == _VARIABLE:
             names.append(arguments[0])

@@ -10,7 +10,7 @@ from orchestra.compat.launch.substitutions.text_substitution import TextSubstitu
 from orchestra.compat.parsed import ParsedSubstitution
 from orchestra.compat.performed import Concatenated
 from orchestra.compat.place import IN_CONSTRUCTOR, here
-from orchestra.compat.text import known_as, normalized, perform_alike
+from orchestra.compat.text import LIST, known_as, normalized, perform_alike
 from orchestra.compat.wrong import WrongType
 from orchestra.description.written import escaped
 
@@ -43,13 +43,16 @@ class PathJoinSubstitution(ParsedSubstitution):
         items = arguments[0] if len(arguments) == 1 and not keywords else None
         if type(items) is not list or not items:
             return False
-        known = known_as(items)
+        known, given = known_as(items), items.copy()
+        if known is None:
+            known = _known_in(given)
         if known is None or None in known:
             return False
-        for item in items:
-            if type(item) is not str and type(item) is not TextSubstitution:
-                item._hold(self)
-        self._as_given = (items.copy(),), keywords
+        for item in given:
+            for part in item if type(item) is list else (item,):
+                if type(part) is not str and type(part) is not TextSubstitution:
+                    part._hold(self)
+        self._as_given = (given,), keywords
         self._known_as = "path-join", *known
         return True
 
@@ -91,6 +94,20 @@ perform_alike(PathJoinSubstitution)
 def _follows(item: Substitution) -> bool:
     """Return whether a component is a text that may as well follow a slash."""
     return type(item) is TextSubstitution and item.text[:1] not in ("", "/")
+
+
+def _known_in(items: list[Any]) -> tuple[Any, ...] | None:
+    """Return what components are known as, lists among them; each is copied, for code may change its own later."""
+    found: list[Any] = []
+    for index, item in enumerate(items):
+        held = [item]
+        if type(item) is list and item:
+            held = items[index] = item.copy()
+        known = known_as(held)
+        if known is None or None in known:
+            return None
+        found.append(known[0] if len(known) == 1 else (LIST, *known))
+    return tuple(found)
 
 
 def _component(item: Sub) -> Substitution:
