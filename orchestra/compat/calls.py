@@ -235,6 +235,34 @@ class _Kept(Made):
         return parts
 
 
+def own() -> Any:
+    """Return a private attribute of what may have its arguments as they were given.
+
+    What code puts there counts, also before the constructor has been asked for what it makes.
+    """
+    return _Own()
+
+
+class _Own:
+    def __set_name__(self, owner: type[Any], name: str) -> None:
+        self._name = name
+
+    def __get__(self, made: Any, kind: type[Any]) -> Any:
+        try:
+            return made.__dict__[self._name]
+        except KeyError:
+            raise AttributeError(self._name) from None
+
+    def __set__(self, made: Any, value: Any) -> None:
+        if made._as_given is not None:
+            getattr(made, self._name)  # what the constructor makes
+        if self._name in made.__dict__:  # else the constructor sets it
+            shown[0] += 1
+            if isinstance(made, CallSubstitution):
+                made._forget()
+        made.__dict__[self._name] = value
+
+
 def _is_known(item: Substitution) -> bool:
     """Return whether no code of launch files says what a substitution comes to, nor how it is described."""
     return isinstance(item, CallSubstitution) and item._whole() is not None

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Final
 
-from orchestra.compat.calls import CallSubstitution
+from orchestra.compat.calls import CallSubstitution, own
 from orchestra.compat.described import described
 from orchestra.compat.launch.condition import Condition
 from orchestra.compat.place import IN_CONSTRUCTOR, here
@@ -12,6 +12,7 @@ from orchestra.compat.text import normalized, template
 
 if TYPE_CHECKING:
     from orchestra.compat.launch.launch_context import LaunchContext
+    from orchestra.compat.launch.substitution import Substitution
     from orchestra.compat.text import Sub
     from orchestra.location import Span
 
@@ -21,6 +22,7 @@ class IfCondition(Condition):
 
     _field = "if"
     _wanted = True
+    __expression: list[Substitution] = own()
 
     def __init__(self, predicate_expression: Sub) -> None:
         self.__expression = normalized(predicate_expression)

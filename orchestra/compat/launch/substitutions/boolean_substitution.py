@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, Self
 
 from orchestra.compat.calculating import Calculating, plain
+from orchestra.compat.calls import own
 from orchestra.compat.described import described
 from orchestra.compat.launch.substitutions.two_sided import TwoSided
 from orchestra.compat.text import normalized
@@ -22,6 +23,7 @@ class NotSubstitution(Calculating):
 
     _name = "not"
     _parameters = ("value",)
+    __value: list[Substitution] = own()
 
     def __init__(self, value: Sub) -> None:
         super().__init__()
@@ -56,6 +58,7 @@ class _OfMany(Calculating):
     """Any number of values, which are all evaluated; the front ends hand them in as `args`."""
 
     _count = None
+    __args: list[list[Substitution]] = own()
 
     def __init__(self, *values: Sub, args: Sequence[Sub] = ()) -> None:
         super().__init__()

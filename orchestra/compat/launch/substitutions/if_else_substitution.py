@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from orchestra.compat.calculating import Calculating, plain
+from orchestra.compat.calls import own
 from orchestra.compat.described import described
 from orchestra.compat.text import normalized
 
@@ -24,6 +25,9 @@ class IfElseSubstitution(Calculating):
     _name = "if"
     _parameters = ("condition", "if_value", "else_value")
     _count = 3
+    __condition: list[Substitution] = own()
+    __if_value: list[Substitution] = own()
+    __else_value: list[Substitution] = own()
 
     def __init__(self, condition: Sub, if_value: Sub = "", else_value: Sub = "") -> None:
         super().__init__()

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any, Final
 
+from orchestra.compat.calls import own
 from orchestra.compat.described import described
 from orchestra.compat.launch.substitutions.text_substitution import TextSubstitution
 from orchestra.compat.parsed import ParsedSubstitution
@@ -23,6 +24,8 @@ class LaunchConfiguration(ParsedSubstitution):
 
     _name = "var"
     _parameters = ("variable_name", "default")
+    __variable_name: list[Substitution] = own()
+    __default: list[Substitution] | None = own()
 
     def __init__(self, variable_name: Sub, *, default: Any = None) -> None:
         self._place = here(self, IN_CONSTRUCTOR)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Self
 
+from orchestra.compat.calls import own
 from orchestra.compat.described import described
 from orchestra.compat.launch.substitution import Substitution
 from orchestra.compat.launch.substitutions.text_substitution import TextSubstitution
@@ -31,6 +32,7 @@ class PathJoinSubstitution(ParsedSubstitution):
     """
 
     _name = "path-join"
+    __substitutions: list[Substitution] = own()
 
     def __init__(self, substitutions: Iterable[Sub]) -> None:
         self._place = here(self, IN_CONSTRUCTOR)

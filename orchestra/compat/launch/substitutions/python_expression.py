@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, Self
 
 from orchestra.compat.calculating import Calculating, plain
+from orchestra.compat.calls import own
 from orchestra.compat.described import described
 from orchestra.compat.expressions import visible
 from orchestra.compat.launch.utilities.perform_substitutions_impl import perform_substitutions
@@ -28,6 +29,8 @@ class PythonExpression(Calculating):
 
     _name = "eval"
     _parameters = ("expression", "python_modules")
+    __expression: list[Substitution] = own()
+    __python_modules: list[Substitution] = own()
 
     def __init__(self, expression: Sub, python_modules: Sub = _MATH) -> None:
         self._place = here(self, IN_CONSTRUCTOR)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from orchestra.compat.calculating import Calculating
+from orchestra.compat.calls import own
 from orchestra.compat.described import described
 from orchestra.compat.text import normalized
 
@@ -20,6 +21,8 @@ class TwoSided(Calculating):
 
     _parameters = ("left", "right")
     _count = 2
+    __left: list[Substitution] = own()
+    __right: list[Substitution] = own()
 
     def __init__(self, left: Sub, right: Sub) -> None:
         super().__init__()

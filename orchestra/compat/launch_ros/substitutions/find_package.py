@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from orchestra.compat.ament_index_python.packages import get_package_prefix, get_package_share_directory
+from orchestra.compat.calls import own
 from orchestra.compat.described import described
 from orchestra.compat.parsed import ParsedSubstitution
 from orchestra.compat.text import normalized, perform_alike
@@ -25,6 +26,7 @@ class FindPackage(ParsedSubstitution):
 
     _name = "find-pkg-prefix"
     _parameters: ClassVar[tuple[str, ...]] = ("package",)
+    __package: list[Substitution] = own()
 
     def __init__(self, package: Sub) -> None:
         super().__init__()
