@@ -15,7 +15,7 @@ from orchestra.compat.launch.substitutions.launch_configuration import LaunchCon
 from orchestra.compat.launch.substitutions.text_substitution import TextSubstitution
 from orchestra.compat.parsed import ParsedSubstitution
 from orchestra.compat.place import argument
-from orchestra.compat.text import template
+from orchestra.compat.text import performs, shown, template
 from orchestra.description.calculated import DIGIT, Calculated
 from orchestra.description.substitutions import Part, Shape
 from orchestra.description.text import (
@@ -71,6 +71,21 @@ class Calculating(ParsedSubstitution):
                 return False
         self._as_given = tuple(given), keywords
         return True
+
+    def _make(self, given: tuple[tuple[Any, ...], dict[str, Any]]) -> None:
+        shown[0] += 1
+        super()._make(given)
+
+    def _is_noted(self) -> bool:
+        """Return whether it is noted when code is shown what this one was given, or what is in that."""
+        given = self._as_given
+        return given is not None and all(
+            type(item) is str
+            or item._known_as is not None
+            or (isinstance(item, Calculating) and item._is_noted())
+            for items in given[0]
+            for item in (items if type(items) is list else (items,))
+        )
 
     def _whole(self) -> Template | None:
         pieces: list[str] = []
@@ -128,6 +143,7 @@ def _is_known(kind: Any) -> bool:
     ):
         return False
     _known.add((kind, kind.perform))
+    performs(kind)
     _parameters[kind._name] = kind._parameters
     return True
 

@@ -130,6 +130,11 @@ def perform_alike(*alike: type[Substitution]) -> None:
     kinds.update(alike)
 
 
+def performs(kind: type[Substitution]) -> None:
+    """Take note of what performs a kind of substitutions, which code may replace."""
+    _performing.setdefault(kind, kind.perform)
+
+
 def is_changed() -> bool:
     """Return whether code has put something else in the place of what performs substitutions."""
     return [*map(_perform, _performing)] != [*_performing.values()]
