@@ -10,6 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from orchestra.compat import refusing
 from orchestra.compat.building import model_of
 from orchestra.compat.launch import Substitution
 from orchestra.compat.launch.actions import ExecuteProcess, Shutdown
@@ -53,6 +54,7 @@ def _made(keywords: dict[str, Any], kind: type[Any] = Node, *, plainly: bool = T
     with pytest.MonkeyPatch.context() as patch, collecting(Problems(), ()):
         if not plainly:
             patch.setattr(kind, "_taken", lambda *_: False)
+            patch.delitem(refusing._keeping, kind)
         return kind(**keywords)
 
 
@@ -102,9 +104,21 @@ _SUBS = st.sampled_from(sorted(_BY_NAME)).map(lambda name: _BY_NAME[name]())
 _MIXED = st.lists(st.one_of(_WORDS, _SUBS), max_size=3)
 _TEXTS = st.one_of(_WORDS, _WORDS, _SUBS, _MIXED, _MIXED.map(tuple))
 _SCALARS = st.one_of(_WORDS, st.booleans(), st.integers(-2, 2), st.floats(allow_nan=False))
+_TYPES = st.sampled_from([None, str, int, float, bool, list[int], list[str]])
+
+
+def _typed(value: Any, kind: Any) -> Any:
+    """Return a value that says its type, as long as it may be of that."""
+    try:
+        return ParameterValue(value, value_type=kind)
+    except TypeError:
+        return ParameterValue(value)
+
+
 _VALUES = st.one_of(
     *(_SCALARS, _SUBS, _MIXED, st.lists(_SCALARS, max_size=3), st.lists(st.floats(0, 1) | st.integers(0, 2))),
-    *(_SCALARS.map(ParameterValue), st.none(), st.lists(st.lists(_WORDS, max_size=2), max_size=2).map(tuple)),
+    *(st.builds(_typed, _SCALARS | _SUBS | _MIXED | st.lists(st.integers()), _TYPES), st.none()),
+    st.lists(st.lists(_WORDS, max_size=2), max_size=2).map(tuple),
 )
 _NAMES = st.one_of(st.sampled_from(["a", "b.c", "", "$x"]), st.sampled_from(["d", "e"]))
 _DICTIONARIES = st.recursive(
@@ -329,6 +343,27 @@ def test_what_is_changed_in_a_substitution_counts() -> None:
     assert _is_plain(node)
     file.param_file[0] = TextSubstitution(text="p.yaml")
     assert [part.from_.raw for part in _model(node).param] == ["p.yaml"]
+
+
+def test_values_that_say_their_type_are_usual() -> None:
+    with collecting(Problems(), ()):
+        path = LaunchConfiguration("path")
+        held = ParameterValue(["cat ", path], value_type=str)
+    node = _made({**_USUAL, "parameters": [{"a": {"b": held}}]})
+    assert _is_plain(node)
+    told = [(param.name.raw, param.value.raw, param.type.raw) for param in _model(node).param]
+    assert told == [("a.b", "cat $(var path)", "str")]
+    node = _made({**_USUAL, "parameters": [{"a": held}]})
+    assert _is_plain(node)
+    held.value[0] = TextSubstitution(text="less ")
+    assert [param.value.raw for param in _model(node).param] == ["less $(var path)"]
+
+
+def test_values_that_could_not_be_made_are_left_to_the_constructor() -> None:
+    with collecting(problems := Problems(), ()):
+        lost = ParameterValue("12", value_type=int)
+        assert not _is_plain(_made({**_USUAL, "parameters": [{"a": lost}]}))
+    assert problems.errors
 
 
 def test_what_is_changed_in_a_node_counts() -> None:

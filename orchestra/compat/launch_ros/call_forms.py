@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, Final, TypeAlias
 from orchestra.compat.launch.substitutions.launch_configuration import PERFORM, LaunchConfiguration
 from orchestra.compat.launch_ros.call_code import Code, targets
 from orchestra.compat.launch_ros.call_texts import Read, Texts, is_mixed, is_plain, mixed, sure
-from orchestra.compat.launch_ros.parameter_descriptions import ParameterFile
+from orchestra.compat.launch_ros.parameter_descriptions import ParameterFile, ParameterValue
 from orchestra.compat.launch_ros.plain_parameters import (
     NO_PARAMETER,
     SCALARS,
@@ -22,6 +22,7 @@ from orchestra.compat.launch_ros.plain_parameters import (
     held_of,
     parameter_of,
     rule_of,
+    typed_of,
     value_of,
 )
 from orchestra.compat.launch_ros.plain_texts import (
@@ -180,6 +181,14 @@ class _Reader(Texts):
                 skeleton[key], made = held
                 made_of.append(f"late(LateParam, ({name}, {made}, parameter_of, call, {at}, around))")
                 continue
+            if type(value) is ParameterValue:
+                self._code.exactly(2, item_var, ParameterValue)
+                made = self._code.new(1)[0]
+                self._code.others.append(f"{made} = typed_of({item_var}, {name}, around, call, {at})")
+                self._code.leaf(made)
+                skeleton[key] = self._code.leaf(item_var)
+                made_of.append(made)
+                continue
             skeleton[key], made = self._value(2, item_var, value, (*path, key))
             written = {"name": f"words({name}, False, call, {at})", "value": made}
             made_of.append(_param(written, f"standing_at(call, {at})"))
@@ -254,6 +263,7 @@ _NAMES: Final[dict[str, Any]] = {
     "scalars": SCALARS,
     "standing_at": standing_at,
     "sure": sure,
+    "typed_of": typed_of,
     "unusual": (KeyError, UnusualError, ValueError),
     "value_of": value_of,
     "words": matched_words,

@@ -41,7 +41,7 @@ def params_of(parameters: Mapping[Any, Any], span: Span) -> tuple[Param, ...]:
 
 def _param(name: Any, value: Any, span: Span) -> Param:
     if isinstance(value, ParameterValue):  # which may say a type that there is not
-        return Param.at(span, name=template(name, span), **_typed(value))
+        return Param.at(span, name=template(name, span), **typed_fields(value))
     return Param.made(
         span, {"name": template(name, span), "value": _value(value, within(span, *_step(name)))}
     )
@@ -50,7 +50,7 @@ def _param(name: Any, value: Any, span: Span) -> Param:
 def value_fields(value: Any, span: Span) -> dict[str, Any]:
     """Return `value` and, where it has one, `type` of a normalised value."""
     if isinstance(value, ParameterValue):
-        return _typed(value)
+        return typed_fields(value)
     return {"value": _value(value, span)}
 
 
@@ -80,7 +80,7 @@ def _step(name: Any) -> tuple[str, ...]:
 def _override(parameter: Parameter) -> Override:
     name, value = parameter._written
     place = parameter._place
-    return Override.at(place.span, name=template(name, place.at("name")), **_typed(value))
+    return Override.at(place.span, name=template(name, place.at("name")), **typed_fields(value))
 
 
 def _file(file: ParameterFile, given: Span) -> Param:
@@ -91,7 +91,8 @@ def _file(file: ParameterFile, given: Span) -> Param:
     return Param.at(span, from_=template(file._written, span), **allowed)
 
 
-def _typed(value: ParameterValue) -> dict[str, Any]:
+def typed_fields(value: ParameterValue) -> dict[str, Any]:
+    """Return `value` and, where it has one, `type` of a value that says more than itself."""
     span = value._place.at("value")
     word = _word(value.value_type)
     written = value._written

@@ -41,6 +41,7 @@ class ParameterValue(Refusing):
     @property
     def value(self) -> Any:
         """What it came to, before that what it is made of."""
+        shown[0] += 1
         return self.__value if self.__evaluated is None else self.__evaluated
 
     @property

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Final
 
-from orchestra.compat.launch_ros.parameter_descriptions import ParameterFile
+from orchestra.compat.launch.substitutions.text_substitution import TextSubstitution
+from orchestra.compat.launch_ros.models import typed_fields
+from orchestra.compat.launch_ros.parameter_descriptions import ParameterFile, ParameterValue
 from orchestra.compat.launch_ros.plain_texts import (
     UnusualError,
     composed,
@@ -15,6 +17,7 @@ from orchestra.compat.launch_ros.plain_texts import (
     whole_text,
 )
 from orchestra.compat.place import Arguments, argument
+from orchestra.compat.refusing import is_lost
 from orchestra.description.parts import LateParam, LateRemap, Param, Remap, late
 from orchestra.description.text import matched_words, new_constant, new_template, new_words
 from orchestra.description.written import escaped
@@ -61,6 +64,24 @@ def file_of(item: ParameterFile) -> Param:
     if keywords.get("allow_substs"):
         fields["allow_substs"] = plain_text("true", call, _FILE)
     return _param(fields, standing_at(call, _FILE))
+
+
+def typed_of(
+    value: ParameterValue,
+    name: str,
+    around: tuple[tuple[Part, ...], str, str],
+    call: Arguments,
+    path: tuple[Way, ...],
+) -> Param:
+    """Return a parameter of which more is said than its value, if that is one of the types that there are."""
+    if is_lost(value) or value.value_type not in _TYPES:
+        raise UnusualError
+    written = value._written
+    for item in written if type(written) is list else ():
+        if type(item) is not TextSubstitution:
+            whole_text(item)
+    called = _called(name, around, call, path)
+    return _param({"name": called, **typed_fields(value)}, standing_at(call, path))
 
 
 def remaps(name: str, value: Any, call: Arguments, fields: dict[str, Any], kept: dict[str, Any]) -> None:
@@ -110,6 +131,9 @@ def entries(
         held = value if kind in SCALARS else held_of(value)
         if held is not None:
             made.append(late(LateParam, (known + key, held, parameter_of, call, path, around)))
+            continue
+        if kind is ParameterValue:
+            made.append(typed_of(value, known + key, around, call, path))
             continue
         called = _called(known + key, around, call, path)
         read = value_of(value, call, (*path, known + key))
@@ -180,5 +204,6 @@ def held_of(value: Any) -> Any:
 
 _SIDES: Final = 2
 _FILE: Final = ("param_file",)
+_TYPES: Final = (None, str, bool, int, float)
 SCALARS: Final = frozenset({str, bool, int, float})
 NO_PARAMETER: Final = Param._unwritten()
