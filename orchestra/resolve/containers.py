@@ -94,7 +94,7 @@ def settle_containers(run: Resolution) -> None:
             from orchestra.resolve.packages.components import is_named_by_module  # noqa: PLC0415 - as above
 
             if components and all(is_named_by_module(one.plugin) for one in components):
-                run.found.processes[index] = replace(process, program=_words(process.executable))
+                run.found.put_process(index, replace(process, program=_words(process.executable)))
 
 
 def _words(executable: str) -> tuple[str, ...]:
@@ -107,7 +107,7 @@ def _put_back(stand_in: StandIn, index: int, run: Resolution) -> None:
     foreign = [one for one in _loaded_into(index, process, run) if not _is_ours(one, run)]
     if not foreign:
         return
-    run.found.processes[index] = replace(process, program=stand_in.others)
+    run.found.put_process(index, replace(process, program=stand_in.others))
     known = {id(problem) for problem in run.problems}
     report_missing_package(stand_in.package.text, stand_in.written, stand_in.context, stand_in.package)
     first, others = foreign[0], len(foreign) - 1

@@ -12,7 +12,7 @@ from orchestra.fields import field
 from orchestra.location import Location
 from orchestra.resolve.context import Value
 from orchestra.resolve.model import ResolvedArgument, ResolvedComponent, ResolvedProcess, ResolvedSkip
-from orchestra.resolve.occasions import Occasion
+from orchestra.resolve.occasions import Occasion, Occasions
 
 
 @dataclass(slots=True)
@@ -34,7 +34,7 @@ class Found:
     processes: list[ResolvedProcess] = field(default_factory=list)
     components: list[ResolvedComponent] = field(default_factory=list)
     arguments: dict[str, ResolvedArgument] = field(default_factory=dict)
-    occasions: list[Occasion] = field(default_factory=list)
+    occasions: Occasions = field(default_factory=Occasions)
     skipped: list[ResolvedSkip] = field(default_factory=list)
     lost: set[str] = field(default_factory=set)
     endless: set[str] = field(default_factory=set)
@@ -54,6 +54,7 @@ class Found:
     spawned: list[Sequence[Value]] = field(default_factory=list)
     _by_origin: dict[int, list[int]] = field(default_factory=dict)
     _sorted: int = 0
+    renewals: int = 0  # how often a process that was there has gone, or another one has taken its place
 
     def made_by(self, origin: object) -> tuple[int, ...]:
         """Return the processes that an object of a Python launch file has made."""
@@ -62,9 +63,15 @@ class Found:
         self._sorted = len(self.processes)
         return tuple(self._by_origin.get(id(origin), ()))
 
+    def put_process(self, index: int, process: ResolvedProcess) -> None:
+        """Put a process of the same object in the place of one."""
+        self.processes[index] = process
+        self.renewals += 1
+
     def drop_process(self) -> None:
         """Forget the process that has come last."""
         self.processes.pop()
+        self.renewals += 1
         if len(self.processes) < self._sorted:
             self._by_origin.clear()
             self._sorted = 0

@@ -6,7 +6,8 @@ they are kept open; `settling` makes triggers of them when the visit is over.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from itertools import islice
 from typing import Any, Literal, TypeAlias
 
 from orchestra.dataclass import dataclass
@@ -72,3 +73,55 @@ class Occasion:
     now: bool = False
     timers: tuple[Any, ...] = ()
     do: list[Action] = field(default_factory=list)
+
+
+class Occasions:
+    """What has been collected, as it is written. What concerns a handler or a timer is found by that."""
+
+    __slots__ = ("_all", "_of_handlers", "_of_timers", "late")
+
+    def __init__(self) -> None:
+        self._all: dict[int, Occasion] = {}
+        self._of_handlers: dict[int, list[Occasion]] = {}
+        self._of_timers: dict[int, Occasion] | None = None
+        self.late = 0  # so many come after the start of the run
+
+    def append(self, occasion: Occasion) -> None:
+        """Put one behind the others."""
+        self._all[id(occasion)] = occasion
+        self._of_timers = None
+        if occasion.handler is not None:
+            self._of_handlers.setdefault(id(occasion.handler), []).append(occasion)
+        if _is_late(occasion):
+            self.late += 1
+
+    def forget(self, handler: Any) -> None:  # noqa: ANN401 - an event handler of any class
+        """Forget what a handler waits for."""
+        self._of_timers = None
+        for occasion in self._of_handlers.pop(id(handler), ()):
+            del self._all[id(occasion)]
+            if _is_late(occasion):
+                self.late -= 1
+
+    def of_timer(self, timer: Any) -> Occasion | None:  # noqa: ANN401 - an object of a Python launch file
+        """Return the first one that comes when a timer goes off."""
+        if self._of_timers is None:
+            self._of_timers = {}
+            for occasion in self:
+                if occasion.timers:
+                    self._of_timers.setdefault(id(occasion.timers[-1]), occasion)
+        return self._of_timers.get(id(timer))
+
+    def __iter__(self) -> Iterator[Occasion]:
+        done = 0
+        while done < len(self._all):  # code that is called meanwhile may put more behind them
+            rest = tuple(islice(self._all.values(), done, None))
+            done += len(rest)
+            yield from rest
+
+    def __len__(self) -> int:
+        return len(self._all)
+
+
+def _is_late(occasion: Occasion) -> bool:
+    return occasion.delay is not None or occasion.on.event != "run_started"

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 from orchestra.dataclass import dataclass
 from orchestra.errors import Code
 from orchestra.location import Location
-from orchestra.resolve.occasions import Occasion, OpenAction, Registration
+from orchestra.resolve.occasions import Occasion, Occasions, OpenAction, Registration
 from orchestra.resolve.reactions import (
     ResolvedCancel,
     ResolvedEvent,
@@ -59,7 +59,7 @@ def settled(run: Resolution) -> tuple[ResolvedTrigger, ...]:
             run.found.timed.append((position, found.occasion))
     run.found.triggers += len(due)
     triggers = tuple(_trigger(found, run) for found in due)
-    run.found.occasions = []
+    run.found.occasions = Occasions()
     return triggers
 
 
@@ -167,11 +167,11 @@ def _completions(occasion: Occasion, run: Resolution) -> Iterable[_Due]:
     yield from (_Due(occasion, ResolvedEvent("process_completed", index), occasion.delay) for index in found)
     if found or id(target) not in run.found.carried_out:
         return
-    for timer in run.found.occasions:
-        if timer.timers and timer.timers[-1] is target:
-            delay = (timer.delay or 0.0) + (occasion.delay or 0.0)
-            yield from (_Due(occasion, due.event, delay, behind=True) for due in _due(timer, run))
-            return
+    timer = run.found.occasions.of_timer(target)
+    if timer is not None:
+        delay = (timer.delay or 0.0) + (occasion.delay or 0.0)
+        yield from (_Due(occasion, due.event, delay, behind=True) for due in _due(timer, run))
+        return
     yield _Due(occasion, ResolvedEvent("run_started"), occasion.delay, behind=True)
 
 

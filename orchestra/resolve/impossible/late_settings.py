@@ -77,6 +77,5 @@ def check_late_in_file(children: Sequence[Action], run: Resolution) -> None:
 
     Variables of the environment are left alone: people end files with one that does no harm, or set it for includers.
     """
-    later = any(item.delay is not None or item.on.event != "run_started" for item in run.found.occasions)
-    if not later and not any(isinstance(child, OpaqueAction) for child in children):
+    if not run.found.occasions.late and not any(isinstance(child, OpaqueAction) for child in children):
         check_late(children, run, settings=SETTINGS - _ENVIRONMENT)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections import deque
+from collections import OrderedDict
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
@@ -30,7 +30,7 @@ from orchestra.resolve.python.configurations import Configurations, Environment
 from orchestra.resolve.python.emitting import emit, handle_events
 from orchestra.resolve.python.failures import failure, unevaluated
 from orchestra.resolve.python.loading import load_description
-from orchestra.resolve.python.matching import accepted
+from orchestra.resolve.python.matching import Lookup
 from orchestra.resolve.python.visiting import visit_entities
 
 if TYPE_CHECKING:
@@ -49,10 +49,9 @@ class ResolvingEngine:
         self._run = run
         self._configurations = Configurations(run)
         self._environment = Environment(run)
+        self._lookup = Lookup()
         self.happening: list[tuple[Any, Location]] = []
-        # The newest first, each once.
-        self._handlers: deque[Any] = deque()
-        self._waiting: set[int] = set()
+        self._handlers: OrderedDict[int, Any] = OrderedDict()  # by their identities, the newest last
         self.context = LaunchContext(argv=argv, noninteractive=run.inputs.noninteractive, _engine=self)
 
     @property
@@ -140,22 +139,17 @@ class ResolvingEngine:
         self.waits(handler)
         self.carry_out(RegisterEventHandler.at(here().span, handlers=models))
         if not first:
-            self._handlers.append(self._handlers.popleft())
+            self._handlers.move_to_end(next(reversed(self._handlers)), last=False)
 
     def waits(self, handler: Any) -> None:
         """Take note that an event handler waits, the newest of all."""
-        if id(handler) not in self._waiting:
-            self._waiting.add(id(handler))
-            self._handlers.appendleft(handler)
+        self._handlers.setdefault(id(handler), handler)
 
     def unregister(self, handler: Any) -> None:
         """Let an event handler wait no more. Raises `ValueError` where it does not wait."""
-        if id(handler) not in self._waiting:
+        if self._handlers.pop(id(handler), None) is None:
             raise ValueError(f"{told(handler)} is not registered")
-        self._waiting.remove(id(handler))
-        self._handlers = deque(known for known in self._handlers if known is not handler)
-        found = self._run.found
-        found.occasions = [occasion for occasion in found.occasions if occasion.handler is not handler]
+        self._run.found.occasions.forget(handler)
         if self._run.occasion is not None:
             location = Location(here().span, self._run.context.included_from)
             self._run.occasion.do.append(Registration(handler, location, armed=False))
@@ -170,12 +164,12 @@ class ResolvingEngine:
 
     def would_handle(self, event: Any) -> bool:
         """Return whether a handler waits for such an event."""
-        return any(handler.matches(event) for handler in self._handlers)
+        return any(handler.matches(event) for handler in reversed(self._handlers.values()))
 
     def wanting(self, event: Any, span: Span) -> list[Any]:
         """Return the handlers that want an event, the newest first."""
         found: list[Any] = []
-        for handler in tuple(self._handlers):
+        for handler in tuple(reversed(self._handlers.values())):
             with user_code(self._run, span):
                 if handler.matches(event):
                     found.append(handler)
@@ -183,7 +177,7 @@ class ResolvingEngine:
 
     def accepted(self, predicate: Any) -> tuple[int, ...]:
         """Return the processes that a predicate on actions means."""
-        return accepted(predicate, self._run)
+        return self._lookup.accepted(predicate, self._run)
 
     def completed(self, action: Any) -> None:
         """Take note that an action has been executed."""
