@@ -359,11 +359,20 @@ def test_values_that_say_their_type_are_usual() -> None:
     assert [param.value.raw for param in _model(node).param] == ["less $(var path)"]
 
 
-def test_values_that_could_not_be_made_are_left_to_the_constructor() -> None:
-    with collecting(problems := Problems(), ()):
-        lost = ParameterValue("12", value_type=int)
-        assert not _is_plain(_made({**_USUAL, "parameters": [{"a": lost}]}))
-    assert problems.errors
+def test_what_is_wrong_with_a_value_is_all_that_is_told(tmp_path: Path) -> None:
+    file = tmp_path / "typed.launch.py"
+    file.write_text(
+        "from launch import LaunchDescription\n"
+        "from launch_ros.actions import ComposableNodeContainer\n"
+        "from launch_ros.descriptions import ComposableNode, ParameterValue\n"
+        "def generate_launch_description():\n"
+        "    value = ParameterValue('12', value_type=int)\n"
+        "    part = ComposableNode(package='p', plugin='p::P', parameters=[{'a': {'b': value}}])\n"
+        "    return LaunchDescription([ComposableNodeContainer(name='c', namespace='', executable='/bin/true',\n"
+        "        composable_node_descriptions=[part])])\n"
+    )
+    collect(str(file), inputs_from((), environment={"PATH": "/usr/bin:/bin"}), problems := Problems())
+    assert [problem.span.line for problem in problems] == [5]
 
 
 def test_what_is_changed_in_a_node_counts() -> None:
