@@ -39,7 +39,7 @@ class PlainProcess(MadeLater, ExecuteLocal):
     """What a process is before somebody asks for more than its model: then it is constructed from its arguments."""
 
     def _keep(self, arguments: tuple[Any, ...], keywords: dict[str, Any]) -> bool:
-        if arguments or _says_output(os.environ):
+        if arguments or self._is_constructed() or _says_output(os.environ):
             return False
         made = self._usual.made(keywords, self._made_at, type(self))
         if made is None:

@@ -172,6 +172,10 @@ class MadeLater(Refusing):
             self._construct()
             return getattr(self, name)
 
+    def _is_constructed(self) -> bool:
+        """Return whether the constructor has run before: what it has made is to be made anew, not to be kept."""
+        return "_place" in self.__dict__
+
     def _construct(self) -> None:
         """Do what the constructor does; what users have set since stays."""
         own = vars(self)

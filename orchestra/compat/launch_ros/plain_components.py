@@ -18,7 +18,9 @@ class PlainComponent(MadeLater):
     """What a component is before somebody asks for more than its model: then it is constructed from its arguments."""
 
     def _keep(self, arguments: tuple[Any, ...], keywords: dict[str, Any]) -> bool:
-        made = None if arguments else self._usual.made(keywords, self._made_at, type(self))
+        if arguments or self._is_constructed():
+            return False
+        made = self._usual.made(keywords, self._made_at, type(self))
         if made is None:
             return False
         made.condition = keywords.get("condition")
