@@ -48,12 +48,13 @@ def _filled(skeleton: Any, leaves: tuple[Any, ...]) -> Any:
 
 
 class Level:
-    """What is looked at together: types first, then what is inside of it is taken out."""
+    """What is looked at together: types first, then what is inside of it is taken out.
+
+    `other` are the expressions that are true for calls of other forms.
+    """
 
     def __init__(self) -> None:
-        self.exact: list[str] = []
-        self.types: list[type[Any]] = []
-        self.scalars: list[str] = []
+        self.other: list[str] = []
         self.opened: list[str] = []
 
 
@@ -84,9 +85,32 @@ class Code:
 
     def exactly(self, level: int, var: str, kind: type[Any]) -> None:
         """Have only calls taken in which something is of this type."""
-        wanted = self.level(level)
-        wanted.exact.append(var)
-        wanted.types.append(kind)
+        if kind is type(None):
+            other = f"{var} is not None"
+        else:  # one by one, which is done sooner than a list of types is made and compared
+            other = f"type({var}) is not {kind.__name__ if kind in _BUILT_IN else self.constant(kind)}"
+        self.level(level).other.append(other)
+
+    def scalar(self, level: int, var: str) -> None:
+        """Have only calls taken in which something is a scalar."""
+        self.level(level).other.append(f"type({var}) not in scalars")
+
+    def entries(self, level: int, var: str, value: dict[str, Any]) -> list[tuple[str, str, Any]]:
+        """Have the values of a dictionary with such keys taken out; return of each its variable, its key and itself."""
+        self.exactly(level, var, dict)
+        if not value:
+            self.level(level).opened.append(f"if {var}: return None")
+            return []
+        keys, values = self.new(len(value)), self.new(len(value))
+        others = []
+        for key, name in zip(keys, map(self.constant, value), strict=True):
+            others.append(f"({key} is not {name} and (type({key}) is not str or {key} != {name}))")
+        self.level(level).opened += [
+            f"{targets(keys)} = {var}",
+            f"if {' or '.join(others)}: return None",
+            f"{targets(values)} = {var}.values()",
+        ]
+        return list(zip(values, value, value.values(), strict=True))
 
     def level(self, level: int) -> Level:
         """Return what is looked at so deep inside of the call."""
@@ -116,16 +140,11 @@ class Code:
         """Compile all that has been written."""
         lines = [first]
         for level in self._levels:
-            if level.exact:
-                types = f"[*map(type, ({', '.join(level.exact)},))]"
-                lines.append(f"if {types} != {self.constant(level.types)}: return None")
-            if level.scalars:
-                lines.append(
-                    f"if not scalars.issuperset(map(type, ({', '.join(level.scalars)},))): return None"
-                )
+            if level.other:
+                lines.append(f"if {' or '.join(level.other)}: return None")
             lines += level.opened
         if self.texts:
-            lines.append(f'text = "".join(({", ".join(self.texts)},))')
+            lines.append(f'text = f"{{{"}{".join(self.texts)}}}"')
             lines.append('if "$" in text or "\\\\" in text: return None')
         if self.needed:
             lines.append(f"if not ({' and '.join(self.needed)}): return None")
@@ -151,5 +170,6 @@ def targets(names: Sequence[str]) -> str:
 
 
 _SERIES: Final = frozenset({list, tuple})
+_BUILT_IN: Final = frozenset({str, list, tuple, dict})
 # The file of code that is written here: who watches what code does knows by it that it is ours.
 _WRITTEN: Final = f"{__file__}: written"

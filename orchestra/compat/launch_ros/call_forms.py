@@ -164,17 +164,8 @@ class _Reader(Texts):
             ]
             self._code.leaf(made)
             return self._code.leaf(var), f"*{made}"
-        self._code.exactly(1, var, dict)
-        level = self._code.level(1)
-        level.opened.append(f"if [*{var}] != {self._code.constant([*items])}: return None")
-        names = self._code.new(len(items))
-        if names:
-            level.opened.append(f"{targets(names)} = {var}.values()")
-        inner = self._code.level(2)
-        inner.exact.append(f"*{var}")
-        inner.types += [str] * len(items)
         skeleton, made_of = {}, []
-        for item_var, (key, value) in zip(names, items.items(), strict=True):
+        for item_var, key, value in self._code.entries(1, var, items):
             name, at = self._code.constant(key), self._code.constant(path)
             held = self._held(2, item_var, value)
             if held is not None:
@@ -197,7 +188,7 @@ class _Reader(Texts):
     def _held(self, level: int, var: str, value: Any) -> Read | None:
         """Read a value that is known without a visit; None for any other."""
         if type(value) in SCALARS:
-            self._code.level(level).scalars.append(var)
+            self._code.scalar(level, var)
             return self._code.leaf(var), var
         if held_of(value) is None:
             return None
