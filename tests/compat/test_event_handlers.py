@@ -361,3 +361,11 @@ def test_a_registered_handler_shows_what_may_follow() -> None:
     assert list(entities) == [follows]
     silent = OnProcessExit(on_exit=_nothing)
     assert RegisterEventHandler(silent).describe_conditional_sub_entities() == []
+
+
+@pytest.mark.parametrize("target", ["5", "None", "['first']", "LaunchConfiguration('x')", "(1,)"])
+@pytest.mark.parametrize("matcher", ["executable", "name", "pid"])
+def test_what_is_no_text_matches_no_process(matcher: str, target: str, tmp_path: Path) -> None:
+    event = f"EmitEvent(event=ShutdownProcess(process_matcher=matches_{matcher}({target})))"
+    found = plans.python(tmp_path, f"process, {event}", _HEAD)
+    assert [step["processes"] for trigger in found.triggers for step in trigger["do"]] in ([], [[]])

@@ -42,16 +42,18 @@ class Lookup:
             case "executable":
                 self._catch_up(run.found)
                 return self._run_by(predicate.target)
-            case "node_name":
+            case "node_name" if isinstance(predicate.target, str):
                 self._catch_up(run.found)
                 return tuple(self._nodes.get(predicate.target, ()))
             case _:  # no process has a number yet
                 return ()
 
-    def _run_by(self, end: str | tuple[str, ...]) -> tuple[int, ...]:
-        """Return the processes whose programs end so, or with one of these."""
+    def _run_by(self, end: Any) -> tuple[int, ...]:
+        """Return the processes whose programs end so, or with one of several texts: none ends with anything else."""
         if isinstance(end, tuple):
             return tuple(sorted({index for one in end for index in self._run_by(one)}))
+        if not isinstance(end, str):
+            return ()
         begin, programs = end[::-1], self._backwards
         first = last = bisect_left(programs, begin)
         while last < len(programs) and programs[last].startswith(begin):
