@@ -9,7 +9,16 @@ import pytest
 
 from orchestra.load.alike import assembled as of_parts
 from orchestra.load.alike import xml_items, yaml_items
-from orchestra.load.alike.assembled import CLOSE, EXPRESSION, OPEN, TEXT, assembled, expression
+from orchestra.load.alike.assembled import (
+    AS_LONG,
+    BEFORE,
+    CLOSE,
+    EXPRESSION,
+    OPEN,
+    TEXT,
+    assembled,
+    expression,
+)
 
 _VALUES = (
     yaml_items.MANNER.harmless('"a"', 0, 1, 2),
@@ -26,10 +35,14 @@ def _parts(random: Random) -> tuple[list[of_parts.Part], list[str]]:
     parts: list[of_parts.Part] = []
     likely: list[str] = []
     opened = 0
-    for kind in random.choices((TEXT, EXPRESSION, OPEN, CLOSE), (4, 4, 1, 1), k=random.randrange(1, 25)):
-        if kind == TEXT:
+    kinds = TEXT, EXPRESSION, OPEN, CLOSE, AS_LONG, BEFORE
+    for kind in random.choices(kinds, (4, 4, 1, 1, 1, 1), k=random.randrange(1, 25)):
+        if kind in (TEXT, AS_LONG):
             likely.append("".join(random.choices("abn:'\"{}[], \n-$(ü\U0001f600", k=random.randrange(1, 12))))
-            parts.append((TEXT, likely[-1]))
+            parts.append((kind, likely[-1]))
+        elif kind == BEFORE:
+            likely.append(random.choice("\"'],^-\n"))
+            parts += (kind, likely[-1]), (TEXT, likely[-1])
         elif kind == EXPRESSION:
             likely.append("")
             parts += (OPEN, ""), (EXPRESSION, random.choice(_VALUES)), (CLOSE, "")

@@ -10,7 +10,10 @@ from __future__ import annotations
 import re
 from functools import cache
 from itertools import chain, repeat
-from typing import Any, Final, TypeAlias
+from typing import TYPE_CHECKING, Any, Final, TypeAlias
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
 
 try:
     import _sre  # type: ignore[import-not-found]
@@ -21,8 +24,9 @@ except ImportError:  # another interpreter
 # Of Python 3.11, 3.12 and 3.13. A number stands for what codes there are and how they are laid out.
 _KNOWN: Final = frozenset({20220615, 20221023, 20230612})
 
-# What is matched in turn: a text (as it is), an expression without groups, the beginning of a group, its end.
-TEXT, EXPRESSION, OPEN, CLOSE = range(4)
+# What is matched in turn: a text (as it is), an expression without groups, the beginning of a group, its end, as many
+# characters as a text has, whatever stands before a character.
+TEXT, EXPRESSION, OPEN, CLOSE, AS_LONG, BEFORE = range(6)
 Part: TypeAlias = tuple[int, str]
 
 
@@ -42,6 +46,10 @@ def assembled(parts: list[Part]) -> re.Pattern[str]:
             code += _constants.MARK, 2 * groups
             opened.append(groups)
             groups += 1
+        elif kind == AS_LONG:
+            code += _repeated(len(text), len(text), _constants.ANY_ALL)
+        elif kind == BEFORE:
+            code += _repeated(0, _constants.MAXREPEAT, _constants.NOT_LITERAL, ord(text))
         else:
             code += _constants.MARK, 2 * opened.pop() + 1
     code.append(_constants.SUCCESS)
@@ -52,13 +60,29 @@ def assembled(parts: list[Part]) -> re.Pattern[str]:
 
 def expression(parts: list[Part]) -> str:
     """Return these as the text of an expression."""
-    written = {OPEN: "(", CLOSE: ")"}
-    return "".join([escaped(text) if kind == TEXT else written.get(kind, text) for kind, text in parts])
+    return "".join([_WRITTEN.get(kind, str)(text) for kind, text in parts])
 
 
 def escaped(text: str) -> str:
     """Return an expression for a text, with blanks and dashes as they are: an escape takes three times as long."""
     return re.escape(text).replace("\\ ", " ").replace("\\\n", "\n").replace("\\-", "-")
+
+
+_WRITTEN: Final[dict[int, Callable[[str], str]]] = {
+    TEXT: escaped,
+    OPEN: lambda _: "(",
+    CLOSE: lambda _: ")",
+    AS_LONG: lambda text: f"(?s:.{{{len(text)}}})",
+    BEFORE: lambda text: f"[^{re.escape(text)}]*+",
+}
+
+
+def _repeated(least: int, most: int, *repeated: int) -> tuple[int, ...]:
+    """Return the codes that match one character again and again, and never give one back."""
+    return (
+        *(_constants.POSSESSIVE_REPEAT_ONE, 4 + len(repeated), least, most),
+        *(*repeated, _constants.SUCCESS),
+    )
 
 
 @cache  # there are few

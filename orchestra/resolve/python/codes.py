@@ -56,7 +56,7 @@ class Codes:
         with observer().aside():  # they decide nothing: a code is what its source comes to
             self._kept = {} if self._store is None else _unpacked(self._store, self._key)
         self._used: dict[str, _Kept] = {}
-        self._new: dict[str, tuple[str, Compiled]] = {}
+        self._new: dict[str, Compiled] = {}
         self._compiled = 0
 
     def code(self, path: str, source: bytes) -> Compiled:
@@ -68,7 +68,7 @@ class Codes:
             return Compiled(code, source, known[2])
         compiled, lasting = _compiled(path, source)
         if lasting and path not in self._new:
-            self._new[path] = digest_of(source), compiled
+            self._new[path] = compiled
             self._compiled += len(source)
         return compiled
 
@@ -82,7 +82,8 @@ class Codes:
         if self._store is None:
             return
         new = {
-            path: (digest, marshal.dumps(made.code), made.told) for path, (digest, made) in self._new.items()
+            path: (digest_of(made.source), marshal.dumps(made.code), made.told)
+            for path, made in self._new.items()
         }
         with observer().aside():
             for codes in (self._kept | new, self._used | new):

@@ -9,6 +9,7 @@ from types import CodeType
 from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.resolve.python.form_slots import Name
+from orchestra.resolve.python.form_texts import taking
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterable, Sequence
@@ -139,13 +140,13 @@ class CodeForm:
         self._variables = classes.variables(code, other)
         self._fixed: list[Any] = []
         self._codes: list[CodeForm] = []
-        self._series: list[list[Any]] = []
+        self._series: list[list[tuple[str, int]]] = []
         places = [self._place(*pair, classes) for pair in zip(code.co_consts, other.co_consts, strict=True)]
         fixed = classes.count
         codes = fixed + len(self._fixed)
         self._begins = {_VALUE: 0, _FIXED: fixed, _CODE: codes, _SERIES: codes + len(self._codes)}
-        self._series = [list(map(self._number, held)) for held in self._series]
-        self._order = list(map(self._number, places))
+        self._taking = [taking(list(map(self._number, held))) for held in self._series]
+        self._constants = taking(list(map(self._number, places)))
 
     def _place(self, own: Any, other: Any, classes: Classes) -> tuple[str, int]:
         """Return among what a constant is numbered, and its number there."""
@@ -178,8 +179,8 @@ class CodeForm:
         """Return the code for other values, at a path; `shifts` are those of columns, by their numbers."""
         known = values + self._fixed
         known += [form.made(path, values, shifts) for form in self._codes]
-        for held in self._series:
-            known.append(tuple(map(known.__getitem__, held)))
+        for held in self._taking:
+            known.append(held(known))
         names = self._code.co_varnames
         if self._variables:
             changed = list(names)
@@ -189,7 +190,7 @@ class CodeForm:
         return self._code.replace(
             co_filename=path,
             co_varnames=names,
-            co_consts=tuple(map(known.__getitem__, self._order)),
+            co_consts=self._constants(known),
             co_linetable=self._code.co_linetable if shifts is None else self._lines(shifts),
         )
 

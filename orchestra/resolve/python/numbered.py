@@ -18,7 +18,6 @@ if TYPE_CHECKING:
 _DIGITS: Final = b"0123456789"
 _AS_ZERO: Final = bytes.maketrans(_DIGITS, b"0" * 10)
 _ALONE: Final = bytes(byte if byte in _DIGITS else 0x20 for byte in range(256))
-_FEW: Final = 4  # files of one text between numbers that are known
 _MOST: Final = 64
 
 
@@ -26,8 +25,8 @@ class Told:
     """What looks have told of files, by their texts between numbers; all texts have the `fixed` numbers besides."""
 
     def __init__(self, fixed: Collection[bytes] = ()) -> None:
-        self._fixed = {(number, number) for number in fixed}
-        self._known: dict[bytes, list[tuple[list[bytes], Any, dict[str, bool]]]] = {}
+        self._fixed = sorted(fixed)
+        self._known: dict[object, dict[str, bool]] = {}
 
     def add(self, compiled: Compiled) -> None:
         """Have a file share what looks tell of it with those that are alike, by now and later on."""
@@ -35,24 +34,20 @@ class Told:
 
     def share(self, compiled: Compiled, text: bytes, asked: object) -> None:
         """Have a file share what looks tell of it, by a text and whatever else they ask."""
-        key, numbers = _split(text)
-        known = self._known.get(key)
-        if known is None:
+        key = _skeleton(text), _which_are_same([*self._fixed, *text.translate(_ALONE).split()]), asked
+        told = self._known.get(key)
+        if told is None:
             if len(self._known) >= _MOST:
                 del self._known[next(iter(self._known))]
-            known = self._known[key] = []
-        for others, other, told in known:
-            if self._are_alike(numbers, others) and asked == other:
-                told.update(compiled.told)
-                compiled.told = told
-                return
-        if len(known) < _FEW:
-            known.append((numbers, asked, compiled.told))
+            self._known[key] = compiled.told
+        else:
+            told.update(compiled.told)
+            compiled.told = told
 
-    def _are_alike(self, numbers: list[bytes], others: list[bytes]) -> bool:
-        """Return whether numbers are the same just where others are."""
-        pairs = {*zip(numbers, others, strict=True), *self._fixed}
-        return len(pairs) == len({number for number, _ in pairs}) == len({other for _, other in pairs})
+
+def _which_are_same(numbers: list[bytes]) -> tuple[int, ...]:
+    """Return for each number the place of the first one that is the same."""
+    return tuple(map(dict[bytes, int]().setdefault, numbers, range(len(numbers))))
 
 
 def numbers_of(text: str) -> set[bytes]:
@@ -60,12 +55,12 @@ def numbers_of(text: str) -> set[bytes]:
     return set(text.encode().translate(_ALONE).split())
 
 
-def _split(source: bytes) -> tuple[bytes, list[bytes]]:
-    """Return a text with 0 for each number, and the numbers; an expression would take five times as long."""
+def _skeleton(source: bytes) -> bytes:
+    """Return a text with 0 for each number; an expression would take five times as long."""
     key = source.translate(_AS_ZERO)
     while b"00" in key:
         key = key.replace(b"00", b"0")
-    return key, source.translate(_ALONE).split()
+    return key
 
 
 def _asked(code: CodeType) -> tuple[Any, ...]:
