@@ -136,6 +136,9 @@ def _tell_twice(processes: Sequence[ResolvedProcess | ResolvedComponent], proble
     What is repeated, and made once in the code, is left alone.
     """
     found: set[int] = set()
+    origins = [id(process.origin) for process in processes if process.origin is not None]
+    if len({*origins}) == len(origins):
+        return found
     times: dict[int, int] = {}
     for process in processes:
         origin = process.origin

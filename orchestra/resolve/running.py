@@ -156,13 +156,14 @@ def words_of(process: ResolvedProcess) -> list[str]:
 def _tell(process: ResolvedProcess, run: Resolution) -> None:
     """Let the object of a Python launch file know what the process is started with: user code may ask for it."""
     origin = process.origin
-    if process.faulty or not hasattr(origin, "_prepared_by"):
+    take = getattr(type(origin), "_prepared_by", None)  # of a class of ours
+    if process.faulty or take is None:
         return
     scope = run.scope
     if scope.environment_copy is None:  # most processes are started with the same
         scope.environment_copy = copied(scope.environment)
     environment = scope.environment_copy if process.inherit_environment else {}
-    origin._prepared_by(partial(_prepared, process, len(run.found.processes) - 1, environment))  # noqa: SLF001 - a class of ours
+    take(origin, partial(_prepared, process, len(run.found.processes) - 1, environment))
 
 
 def _prepared(

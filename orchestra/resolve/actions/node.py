@@ -136,8 +136,9 @@ def _argue(process: Any, program: Packaged, action: Node, run: Resolution) -> bo
 
 def _tell(origin: Any, process: ResolvedProcess) -> None:  # noqa: ANN401 - any object
     """Let the object of a Python launch file know what its names have come to: user code may ask for them."""
-    if not process.faulty and hasattr(origin, "_resolved_by"):
-        origin._resolved_by(partial(_names, process))  # noqa: SLF001 - the class of ours that made the action
+    take = getattr(type(origin), "_resolved_by", None)  # of the class of ours that made the action
+    if take is not None and not process.faulty:
+        take(origin, partial(_names, process))
 
 
 def _names(process: ResolvedProcess) -> tuple[str | None, str | None, list[tuple[str, str]]]:

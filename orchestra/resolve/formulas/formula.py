@@ -27,7 +27,7 @@ _MOST: Final = 256  # texts that are kept for a formula
 class Formula:
     """What the texts of a skeleton come to. `telling` and `bare` are for who looks for mistakes in them."""
 
-    __slots__ = ("_names", "_slot", "_texts", "bare", "shape", "telling")
+    __slots__ = ("_fixed", "_names", "_slot", "_texts", "bare", "shape", "telling")
 
     def __init__(self, shape: Shape) -> None:
         self.shape = shape
@@ -40,11 +40,16 @@ class Formula:
         except _OtherError:
             self._slot = None
         self._names = reading.names
+        self._fixed: tuple[str, ...] | None = None
+        if all(type(piece) is str for name in self._names for piece in name):
+            self._fixed = self.names(())  # no number of a text is in one
 
     def names(self, numbers: Sequence[str]) -> tuple[str, ...] | None:
         """Return the variables that a text with these numbers reads, in order; None where that is not known."""
         if self._slot is None:
             return None
+        if self._fixed is not None:
+            return self._fixed
         return tuple(
             [
                 "".join([numbers[piece] if isinstance(piece, int) else piece for piece in name])
