@@ -140,14 +140,14 @@ class _Strangers:
         self.pair = written_item(known, mapping)
         self.meant = dict[str, Any]()  # what other keys are worth with a stranger
         self.pairs_with_value = known >= {"name", "value"} and "value" not in mapping
+        self.present = known & {spelled(key) for key in mapping}
 
     def hint(self, key: str) -> str | None:
         """Return what does what an unknown key is meant to do: another action, or a key that stands here already."""
         known, hint = HINTS.get(snake(key), (frozenset(), None))
         if not self.known.isdisjoint(known):
             return hint
-        present = self.known & {spelled(other) for other in self.mapping}
-        taken = next((other for other in KEYS_ELSEWHERE.get(snake(key), ()) if other in present), None)
+        taken = next((other for other in KEYS_ELSEWHERE.get(snake(key), ()) if other in self.present), None)
         return None if taken is None else f"'{taken}' stands here already"
 
     def remark(self, key: str, near: str) -> str | None:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from operator import attrgetter
+from typing import TYPE_CHECKING, Final
 
 from orchestra.nearest import is_slip, nearest
 
@@ -10,6 +11,8 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from orchestra.resolve.model import Resolved
+
+_FAULTY: Final = attrgetter("faulty")
 
 
 def is_mistake(name: str, known: Iterable[str], resolved: Resolved) -> bool:
@@ -20,7 +23,7 @@ def is_mistake(name: str, known: Iterable[str], resolved: Resolved) -> bool:
     """
     if name.rpartition("/")[2] in resolved.lost:
         return False
-    if not resolved.incomplete and not any(process.faulty for process in resolved.processes):
+    if not resolved.incomplete and not any(map(_FAULTY, resolved.processes)):
         return True
     near = nearest(name, known)
     return near is not None and is_slip(name, near)

@@ -52,12 +52,30 @@ class Targets:
         return found
 
     @cached_property
+    def programs(self) -> dict[str, list[str]]:
+        """The full names of nodes by their executables, each once."""
+        found: dict[str, dict[str, None]] = {}
+        for node, owners in self.nodes.items():
+            for owner in owners:
+                found.setdefault(self.process[owner].executable, {})[node] = None
+        return {executable: list(nodes) for executable, nodes in found.items()}
+
+    @cached_property
     def labels(self) -> dict[str, list[str]]:
         """The processes by the labels of what they are in."""
         found: dict[str, list[str]] = {}
         for identity, process in self.process.items():
             for label in process.labels:
                 found.setdefault(label, []).append(identity)
+        return found
+
+    @cached_property
+    def left_out(self) -> dict[str | None, ResolvedSkip]:
+        """The first action of each name that its condition leaves out."""
+        found: dict[str | None, ResolvedSkip] = {}
+        for item in self.resolved.skipped:
+            if item.action in _STARTED:
+                found.setdefault(item.name, item)
         return found
 
     @cached_property
@@ -134,7 +152,7 @@ def _report_unknown(
     if not is_mistake(name, known, targets.resolved):
         return
     what = {"node": "node", "process": "process", "label": "include with the label"}[written.kind]
-    left_out = _left_out(written, targets.resolved)
+    left_out = targets.left_out.get(written.name.text.rpartition("/")[2])
     if left_out is not None:
         message = f"the {what} '{name}' is left out: its `{left_out.condition}` is {left_out.value}"
         notes = (f"it is described at {left_out.location}",)
@@ -150,12 +168,7 @@ def _report_unknown(
 
 def _of_program(name: str, targets: Targets) -> str | None:
     """Return the one node whose executable is called so: it is waited for by its own name."""
-    program = name.rpartition("/")[2]
-    found = [
-        node
-        for node, owners in targets.nodes.items()
-        if any(targets.process[owner].executable == program for owner in owners if owner in targets.process)
-    ]
+    found = targets.programs.get(name.rpartition("/")[2], ())
     return found[0] if len(found) == 1 else None
 
 
@@ -165,12 +178,6 @@ def _as_written(meant: str | None, written: ResolvedDependency, process: Resolve
         return meant
     namespace = _full("_", process).removesuffix("_")
     return meant.removeprefix(namespace)
-
-
-def _left_out(written: ResolvedDependency, resolved: Resolved) -> ResolvedSkip | None:
-    """Return the action of that name which its condition leaves out."""
-    last = written.name.text.rpartition("/")[2]
-    return next((item for item in resolved.skipped if item.action in _STARTED and item.name == last), None)
 
 
 def _report_idle(written: ResolvedDependency, targets: Targets, problems: Problems) -> None:

@@ -12,16 +12,16 @@ from typing import TYPE_CHECKING, Final
 
 from orchestra.dataclass import dataclass
 from orchestra.description.text import Template
+from orchestra.errors import Problems
 from orchestra.fields import replace
 from orchestra.resolve.context import Context, Value
 from orchestra.resolve.names import full_name
-from orchestra.resolve.refusals import report_missing_package
+from orchestra.resolve.refusals import forget_surprise, report_missing_package
 from orchestra.witness.once import once
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Sequence
 
-    from orchestra.errors import Problem
     from orchestra.resolve.context import Packages
     from orchestra.resolve.model import ResolvedComponent, ResolvedProcess
     from orchestra.resolve.packages.entry_points import EntryPoint
@@ -82,15 +82,17 @@ def known_components(run: Resolution) -> tuple[EntryPoint, ...]:
 
 def settle_containers(run: Resolution) -> None:
     """Decide for each container of rclcpp_components whether it is one of ours, by what is loaded into it."""
-    stand_ins, run.found.stand_ins = run.found.stand_ins, []
+    stand_ins, run.found.stand_ins = {id(one.words): one for one in run.found.stand_ins}, []
+    loaded: _Loaded | None = None
     for index, process in enumerate(run.found.processes):
         if process.package != _CPP or process.executable not in _EXECUTABLES:
             continue
-        stand_in = next((one for one in stand_ins if one.words is process.program), None)
+        loaded = loaded or _Loaded(run.found.components)
+        stand_in = stand_ins.get(id(process.program))
         if stand_in is not None:
-            _put_back(stand_in, index, run)
+            _put_back(stand_in, index, loaded.into(index, process), run)
         elif run.context.packages.prefix(_CPP) is not None:
-            components = [*_loaded_into(index, process, run)]
+            components = loaded.into(index, process)
             from orchestra.resolve.packages.components import is_named_by_module  # noqa: PLC0415 - as above
 
             if components and all(is_named_by_module(one.plugin) for one in components):
@@ -101,23 +103,24 @@ def _words(executable: str) -> tuple[str, ...]:
     return (sys.executable, "-m", "orchestra.ros.container", executable)
 
 
-def _put_back(stand_in: StandIn, index: int, run: Resolution) -> None:
+def _put_back(
+    stand_in: StandIn, index: int, components: Sequence[ResolvedComponent], run: Resolution
+) -> None:
     """Put back a container into which something is loaded that is not in Python, and tell of its missing package."""
-    process = run.found.processes[index]
-    foreign = [one for one in _loaded_into(index, process, run) if not _is_ours(one, run)]
+    foreign = [one for one in components if not _is_ours(one, run)]
     if not foreign:
         return
-    run.found.put_process(index, replace(process, program=stand_in.others))
-    known = {id(problem) for problem in run.problems}
-    report_missing_package(stand_in.package.text, stand_in.written, stand_in.context, stand_in.package)
+    run.found.put_process(index, replace(run.found.processes[index], program=stand_in.others))
+    found = Problems()
+    context = replace(stand_in.context, problems=found)
+    report_missing_package(stand_in.package.text, stand_in.written, context, stand_in.package)
     first, others = foreign[0], len(foreign) - 1
     more = f" and {others} more are" if others else " is"
     note = f"Orchestra's own container takes components in Python: '{first.plugin}'{more} not"
-
-    def explained(problem: Problem) -> Problem:
-        return problem if id(problem) in known else replace(problem, notes=(*problem.notes, note))
-
-    run.problems.amend(explained)
+    for problem in found:
+        if problem.span is not None and problem.suggestion is not None:
+            forget_surprise(problem.span, stand_in.context.problems)
+        stand_in.context.problems.report(replace(problem, notes=(*problem.notes, note)))
 
 
 def _is_ours(component: ResolvedComponent, run: Resolution) -> bool:
@@ -127,15 +130,27 @@ def _is_ours(component: ResolvedComponent, run: Resolution) -> bool:
     return component.faulty or target_of(component.package, component.plugin, known) is not None
 
 
-def _loaded_into(index: int, process: ResolvedProcess, run: Resolution) -> Iterator[ResolvedComponent]:
-    namespace = "/" if process.namespace is None else process.namespace.text
-    name = full_name(namespace, _NAME if process.name is None else process.name.text)
-    for component in run.found.components:
-        if component.container_process is not None:
-            found = component.container_process == index
-        elif component.container is not None:
-            found = component.container.text == name
-        else:
-            found = process.origin is not None and component.container_origin is process.origin
-        if found:
-            yield component
+class _Loaded:
+    """The components of a plan by what says where they are loaded."""
+
+    def __init__(self, components: Sequence[ResolvedComponent]) -> None:
+        self._components = components
+        self._by_process: dict[int, list[int]] = {}
+        self._by_name: dict[str, list[int]] = {}
+        self._by_origin: dict[int, list[int]] = {}
+        for place, component in enumerate(components):
+            if component.container_process is not None:
+                self._by_process.setdefault(component.container_process, []).append(place)
+            elif component.container is not None:
+                self._by_name.setdefault(component.container.text, []).append(place)
+            else:
+                self._by_origin.setdefault(id(component.container_origin), []).append(place)
+
+    def into(self, index: int, process: ResolvedProcess) -> list[ResolvedComponent]:
+        """Return what is loaded into a container, as it is written."""
+        namespace = "/" if process.namespace is None else process.namespace.text
+        name = full_name(namespace, _NAME if process.name is None else process.name.text)
+        found = [*self._by_process.get(index, ()), *self._by_name.get(name, ())]
+        if process.origin is not None:
+            found += self._by_origin.get(id(process.origin), ())
+        return [self._components[place] for place in sorted(found)]

@@ -53,6 +53,18 @@ def _in_halves(count: int) -> str:
     return f"- node:\n    exec: /bin/true\n    name: n\n    param:\n{pairs}"
 
 
+def _contained(count: int) -> str:
+    return "\n".join(
+        f"- node_container: {{pkg: rclcpp_components, exec: component_container, name: c{number}, namespace: '',"
+        f" composable_node: [{{pkg: demo_nodes, plugin: 'demo::Talker', name: n{number}}}]}}"
+        for number in range(count)
+    )
+
+
+def _strange(count: int) -> str:
+    return "- node:\n    exec: /bin/true\n" + "".join(f"    strange_{number}: 1\n" for number in range(count))
+
+
 _KINDS: dict[str, Callable[[int], str]] = {
     "arguments of an include": _given,
     "parameters that nobody declares": _undeclared,
@@ -60,6 +72,8 @@ _KINDS: dict[str, Callable[[int], str]] = {
     "problems that a comment silences": _silenced,
     "nodes of a package that is not here": _of_no_package,
     "items that are two": _in_halves,
+    "containers of a package that is not here": _contained,
+    "keys that are unknown": _strange,
 }
 
 
