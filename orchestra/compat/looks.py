@@ -47,6 +47,11 @@ class Compiled:
         self.source = source
         self.told = told
 
+    @property
+    def is_sound(self) -> bool:
+        """Return whether each look has been taken, and none has found what may be a mistake."""
+        return self.told in (_SOUND, _SOUND_AT_WORK)
+
     def may(self, look: str) -> bool:
         """Return what one of the `LOOKS` tells."""
         known = self.told.get(look)
@@ -169,6 +174,9 @@ LOOKS: Final[dict[str, Callable[[CodeType, bytes], bool]]] = {
     "through": goes_through,
     "misused": _may_be_misused,
 }
+# What they tell of a file without mistakes: most of them change nothing.
+_SOUND: Final = {look: look == "harmless" for look in LOOKS}
+_SOUND_AT_WORK: Final = dict.fromkeys(LOOKS, False)
 # By the looks that say whether a file may have such slips: the modules that tell of them.
 _OF_TEXTS: Final = {
     "foreign": "foreign_substitutions",

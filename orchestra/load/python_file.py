@@ -173,6 +173,8 @@ def _look_for_slips(
     module: ModuleType, compiled: Compiled, path: str, problems: Problems, included_from: tuple[Span, ...]
 ) -> None:
     """Warn of what code does in vain, or surely does not mean: actions that are added to nothing, and the like."""
+    if compiled.is_sound:
+        return
     tell_misused(compiled, path, problems, included_from)
     # Here, because only what may be a mistake needs them.
     may, source = compiled.may, compiled.source

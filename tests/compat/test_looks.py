@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import pytest
 
 from orchestra.compat import syntax_trees
-from orchestra.compat.looks import Compiled, has_doubled_keys, has_joined_words, tell_misused
+from orchestra.compat.looks import LOOKS, Compiled, has_doubled_keys, has_joined_words, tell_misused
 from orchestra.compat.signs import gives_twice, is_behind
 from orchestra.errors import Problems
 from orchestra.pipeline import collect, inputs_from
@@ -209,3 +209,14 @@ def test_only_what_there_is_a_sign_of_is_looked_for(
     file.write_text(text)
     tell_misused(Compiled(compile(text, str(file), "exec"), text.encode(), {}), str(file), Problems(), ())
     assert asked == ["texts_as_truths", *(["left_out", "nested_words"] if other else [])]
+
+
+def test_a_file_is_sound_when_every_look_has_found_nothing() -> None:
+    compiled = Compiled(compile("x = 1\n", "file.launch.py", "exec"), b"x = 1\n", {})
+    assert not compiled.is_sound
+    assert [look for look in LOOKS if compiled.may(look)] == ["harmless"]
+    assert compiled.is_sound
+    compiled.told["harmless"] = False
+    assert compiled.is_sound
+    compiled.told["idle"] = True
+    assert not compiled.is_sound
