@@ -9,7 +9,7 @@ from orchestra.compat.explanation import told
 from orchestra.compat.launch.action import Action, ModelledAction
 from orchestra.compat.launch.condition import Condition
 from orchestra.compat.launch.launch_description_entity import LaunchDescriptionEntity
-from orchestra.compat.place import Place, here
+from orchestra.compat.place import Arguments, Place, here
 from orchestra.compat.wrong import WrongType
 
 if TYPE_CHECKING:
@@ -21,6 +21,9 @@ if TYPE_CHECKING:
 
 def model_of(entity: LaunchDescriptionEntity) -> Model:
     """Return the model of a Python entity, its condition included; an opaque one where only its code knows more."""
+    plain = entity._plain_model()
+    if plain is not None:
+        return plain
     if isinstance(entity, ModelledAction) and entity._is_as_described():
         model = entity._to_model(conditioned(entity))
         if entity._refused:
@@ -55,23 +58,26 @@ def models_of(entities: Iterable[Any], place: Place, argument: str = "actions") 
     if not isinstance(entities, Iterable):
         told_so = f"a list of actions is expected here, this is {told(entities)}"
         raise WrongType(told_so, entities, at=place.at(argument))
-    known = list(entities)
-    return tuple(_model_or_opaque(known, index, place) for index in range(len(known)))
+    return models_in(list(entities), Arguments(place))
 
 
-def _model_or_opaque(entities: list[Any], index: int, place: Place) -> Model:
-    entity = entities[index]
+def models_in(entities: list[Any], call: Arguments) -> tuple[Model, ...]:
+    """Return the same of a list that an argument of a call holds."""
+    return tuple([_model_or_opaque(entity, index, entities, call) for index, entity in enumerate(entities)])
+
+
+def _model_or_opaque(entity: Any, index: int, entities: list[Any], call: Arguments) -> Model:
     if isinstance(entity, LaunchDescriptionEntity):
         try:
             return model_of(entity)
         except Exception:  # noqa: BLE001 - the visit of the entity alone comes upon the same
-            at: Place = getattr(entity, "_place", None) or place
+            at: Place = getattr(entity, "_place", None) or call.place
             span = at.span
     else:
         # Here, because only mistakes need it, and what it imports.
         from orchestra.compat.literals import item_span  # noqa: PLC0415
 
-        span = item_span(place, index, len(entities))
+        span = item_span(call.place, index, len(entities))
     from orchestra.description.actions.opaque import OpaqueAction  # noqa: PLC0415 - as above
 
     return OpaqueAction.made(span, {"target": entity}, entity)

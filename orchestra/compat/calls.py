@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any
 
 from orchestra.compat.launch.substitution import Substitution
 from orchestra.compat.launch.substitutions.text_substitution import TextSubstitution
 from orchestra.compat.place import IN_CONSTRUCTOR, Arguments, Instructions, argument, here
-from orchestra.compat.text import Composed, alone, is_changed, shown, template
+from orchestra.compat.text import Composed, alone, is_changed, performing, shown, template
 from orchestra.description.text import (
     Call,
     Opaque,
@@ -19,7 +19,7 @@ from orchestra.description.text import (
     new_call,
     new_template,
 )
-from orchestra.description.written import called
+from orchestra.description.written import called, escaped
 from orchestra.location import Matched
 
 if TYPE_CHECKING:
@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from orchestra.location import Span
 
 
-_VALUE: Final = "var"
+_VALUE, _PATH = "var", "path-join"
 _new = object.__new__
 
 
@@ -102,8 +102,8 @@ class CallSubstitution(Substitution):
 
         It is kept as long as the arguments are the same texts.
         """
-        known = self._known_as
-        if known is None or is_changed():
+        known, kind = self._known_as, type(self)
+        if known is None or kind.perform is not performing.get(kind) or (known[0] == _PATH and is_changed()):
             return self._looked_at()
         return self._sure or self._surely(known)
 
@@ -118,9 +118,10 @@ class CallSubstitution(Substitution):
 
     def _written(self) -> str:
         """Return how one is written that has its arguments as they were given."""
-        twin = self._twin(self._as_given or self._given_again())
-        whole: Template | None = twin._looked_at()
-        raw: str = twin._raw() if whole is None else whole.raw
+        known: Any = self._known_as
+        if type(self)._raw is CallSubstitution._raw and {*map(type, known)} == {str}:
+            return called(known[0], map(escaped, known[1:]))
+        raw: str = self._twin(self._as_given or self._given_again())._raw()
         return raw
 
     def _given_again(self) -> tuple[tuple[Any, ...], dict[str, Any]]:

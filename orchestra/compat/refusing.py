@@ -69,6 +69,7 @@ class Refusing:
     """
 
     _refused = False
+    _lost: tuple[Any, ...] | None = None
     _as_given: tuple[tuple[Any, ...], dict[str, Any]] | None = None
     _made_at: tuple[CodeType, int]
     _place: Place

@@ -43,7 +43,7 @@ _MOST: Final = 4096
 _VARIABLE, _PATH = "var", "path-join"
 LIST: Final = ""  # what several are known by as one component of a path, in the place of a name
 # Kinds of substitutions with what performs them: where that is still so, no code of launch files does.
-_performing: Final[dict[type[Substitution], Any]] = {}
+performing: Final[dict[type[Substitution], Any]] = {}
 # These kinds, and texts, which are known as themselves.
 kinds: Final[set[type[Any]]] = {str, TextSubstitution}
 _KNOWN_AS: Final = repeat("_known_as")
@@ -126,18 +126,18 @@ def known_as(items: Sequence[Any]) -> tuple[Any, ...] | None:
 
 def perform_alike(*alike: type[Substitution]) -> None:
     """Take note of kinds of substitutions that are all alike where the same was given."""
-    _performing.update((kind, kind.perform) for kind in alike)
+    performing.update((kind, kind.perform) for kind in alike)
     kinds.update(alike)
 
 
 def performs(kind: type[Substitution]) -> None:
     """Take note of what performs a kind of substitutions, which code may replace."""
-    _performing.setdefault(kind, kind.perform)
+    performing.setdefault(kind, kind.perform)
 
 
 def is_changed() -> bool:
     """Return whether code has put something else in the place of what performs substitutions."""
-    return [*map(_perform, _performing)] != [*_performing.values()]
+    return [*map(_perform, performing)] != [*performing.values()]
 
 
 def composed(

@@ -132,9 +132,9 @@ class Param(Entity):
 
 
 class Late:
-    """A part that is known by its two literals, and becomes an ordinary one when somebody asks for anything of it.
+    """A part that is known by its two sides, and becomes an ordinary one when somebody asks for anything of it.
 
-    Its row has the two, then what makes fields of the row, and what is known beside them.
+    Its row has the two, each a literal or a text, then what makes fields of the row, and what is known beside them.
     """
 
     __slots__ = ()
@@ -156,7 +156,7 @@ class Late:
 
 
 class LateRemap(Late, Remap):
-    """A rule of two literal texts."""
+    """A rule by its two sides."""
 
     __slots__ = ()
 
@@ -164,7 +164,7 @@ class LateRemap(Late, Remap):
 
 
 class LateParam(Late, Param):
-    """A parameter by its name, and a value that has its type."""
+    """A parameter by its name, and a value that has its type or is a text."""
 
     __slots__ = ()
 

@@ -240,6 +240,9 @@ class MatchedTemplate(Template):
     def __reduce__(self) -> Any:  # noqa: ANN401 - what makes it, and of what
         return Template, (self.parts, self.raw, self.span, self.quoted, self.faulty)
 
+    def __deepcopy__(self, memo: object) -> Self:
+        return self
+
     @property
     def ordinary(self) -> Template:
         """The same as a template that has its parts."""

@@ -28,28 +28,28 @@ def plainly(param: Param, run: Resolution, everywhere: bool, quotes: bool) -> In
     """
     reads: tuple[Read, ...] = ()
     if type(param) is LateParam:
-        name, value = row_of(param)[:2]
-        value = held(value)
+        name, written = row_of(param)[:2]
     else:
         called, written = param.name, param.value
         if type(called) is not MatchedTemplate or param.type is not None or param.param is not None:
             return None
         name = called.constant
-        if type(written) is not MatchedTemplate:
-            value = (
-                held(written.value)
-                if type(written) is Constant and not everywhere
-                else read_at_once(param, quotes)
-            )
-        elif written.constant is None:
-            known = known_text(written, run.context)
-            if known is None or known[0][:1] == "/":  # a path may lead nowhere
-                return None
-            value, reads = value_alike(known[0]), known[1]
-        elif written.constant and not (written.quoted and quotes):
-            value = value_alike(written.constant)
+    if type(written) is not MatchedTemplate:
+        if type(param) is LateParam and not isinstance(written, Template):
+            value = held(written)
+        elif type(written) is Constant and not everywhere:
+            value = held(written.value)
         else:
-            value = written.constant or None
+            value = read_at_once(param, quotes)
+    elif written.constant is None:
+        known = known_text(written, run.context)
+        if known is None or known[0][:1] == "/":  # a path may lead nowhere
+            return None
+        value, reads = value_alike(known[0]), known[1]
+    elif written.constant and not (written.quoted and quotes):
+        value = value_alike(written.constant)
+    else:
+        value = written.constant or None
     if value is None or not name or may_be_odd(name):
         return None
     made: Any = _new(InlineParameter)

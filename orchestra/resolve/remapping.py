@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 
 class LateRule(ResolvedRemap):
-    """A rule of two literal texts, whose values are made when somebody asks for more than these; equal to any other."""
+    """A rule by its two texts: values of literal ones are made when somebody asks for them; equal to any other."""
 
     __slots__ = ("_written", "texts")
 
@@ -99,17 +99,12 @@ def remaps(written: Sequence[Remap], run: Resolution) -> tuple[tuple[ResolvedRem
 
 
 def _known(written: LateRemap, run: Resolution) -> ResolvedRemap | None:
-    """Return a rule by its two texts."""
+    """Return a rule by its two sides."""
     source, target = row_of(written)[:2]
-    try:
-        read_rule(source, target)
-    except InvalidName:
-        return remap(written.from_, written.to, run)
-    made: Any = _new(LateRule)
-    made.texts = source, target
-    made._written = written, run.context.included_from  # noqa: SLF001 - it is made here
-    rule: LateRule = made
-    return rule
+    is_text = type(target) is MatchedTemplate and target.constant is None
+    if type(source) is not str or not (type(target) is str or is_text):
+        return _plainly(written, run)
+    return _rule(written, source, target, run)
 
 
 def _plainly(written: Remap, run: Resolution) -> ResolvedRemap | None:
@@ -120,9 +115,14 @@ def _plainly(written: Remap, run: Resolution) -> ResolvedRemap | None:
     source, target = from_.constant, to.constant
     if source is None or source == target:
         return remap(from_, to, run)
+    return _rule(written, source, to if target is None else target, run)
+
+
+def _rule(written: Remap, source: str, target: str | Template, run: Resolution) -> ResolvedRemap | None:
+    """Return a rule of a literal text and another text."""
     made: Any = _new(LateRule)
-    if target is None:
-        value = run.evaluate(to)
+    if type(target) is not str:
+        value = run.evaluate(target)  # type: ignore[arg-type] # as it says
         if not isinstance(value, Value):
             return None
         made.target, target = value, value.text

@@ -199,6 +199,18 @@ def test_code_that_performs_variables_in_another_way_is_heard(monkeypatch: pytes
     assert not _with_form(_LIKE, _LIKE, Node)[1]
 
 
+def test_a_copy_of_a_variable_is_a_variable() -> None:
+    variable = LaunchConfiguration("z")
+    like = {"package": "a", "executable": "b", "parameters": [{"frame": [variable, "/base"]}]}
+    model, taken = _with_form(like, like, Node)
+    copied, is_taken = _with_form(
+        {**like, "parameters": [{"frame": [copy.deepcopy(variable), "/base"]}]}, like, Node
+    )
+    assert taken
+    assert is_taken
+    assert _told(copied) == _told(model)
+
+
 def test_all_of_it_stands_where_it_is_written() -> None:
     usual = plain_nodes.USUAL
     form = form_of(_LIKE, usual.readers, usual._series, usual.unwritten)
@@ -206,6 +218,7 @@ def test_all_of_it_stands_where_it_is_written() -> None:
     leaves = form.take(_LIKE, call)
     assert leaves is not None
     fields = form.make(leaves, call)
+    assert fields is not None
     assert fields["param"][1].value == Constant(1, call.place.at("parameters", 1, "a"))
     assert isinstance(fields["name"], Template)
     assert fields["name"].span == call.place.at("name")

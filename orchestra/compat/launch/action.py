@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.compat.launch.launch_description_entity import LaunchDescriptionEntity
 from orchestra.compat.place import IN_CONSTRUCTOR, here
@@ -93,4 +93,15 @@ class ModelledAction(Action):
         """Return whether nobody has changed what a visit does, so that the model says it all."""
         kind = type(self)
         execute: Any = kind.execute
-        return kind.visit is Action.visit and execute.__module__.startswith("orchestra.compat.")
+        return kind.visit is Action.visit and (execute in _OURS or _is_ours(execute))
+
+
+# What actions of ours do at a visit, as far as it has been looked at.
+_OURS: Final[set[Any]] = set()
+
+
+def _is_ours(execute: Any) -> bool:
+    if execute.__module__.startswith("orchestra.compat."):
+        _OURS.add(execute)
+        return True
+    return False

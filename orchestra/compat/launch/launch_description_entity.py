@@ -10,12 +10,17 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from orchestra.compat.launch.launch_context import LaunchContext
+    from orchestra.description.entity import Action as Model
 
 
 class LaunchDescriptionEntity(Refusing):
     """Something that is visited. `_role` tells those apart that a search for declared arguments meets."""
 
     _role: Literal["other", "declaration", "include", "reset"] = "other"
+
+    def _plain_model(self) -> Model | None:
+        """Return the model as long as it is made of arguments as they were given; None where it takes a look."""
+        return None
 
     def describe(self) -> str:
         """Return what the entity is, for people."""

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from orchestra.compat.building import unchecked
 from orchestra.compat.launch.action import ModelledAction
 from orchestra.compat.launch.substitution import Substitution
-from orchestra.compat.launch_ros.plain_texts import UnusualError, entity, plain_text, standing_at
+from orchestra.compat.launch_ros.plain_texts import UnusualError, entity, plain_text
 from orchestra.compat.place import Arguments, Way, argument
 from orchestra.compat.refusing import standing
 from orchestra.compat.text import kinds, template
@@ -75,21 +75,36 @@ class PlainAction(ModelledAction):
             self.__init__(**given)  # type: ignore[misc] # with the keywords of the subclass
         vars(self).update(own)  # what users have set since stays
 
+    def _plain_model(self) -> Model | None:
+        own = self.__dict__
+        given = own.get("_as_given")
+        if (
+            given is None
+            or own["_Action__condition"] is not None
+            or len(own) - ("_place" in own) != _OF_PLAIN
+        ):
+            return None
+        return self._of_given(given, {}) if self._is_as_described() else None
+
+    def _of_given(self, given: dict[str, Any], condition: dict[str, Any]) -> Model:
+        """Return the model of arguments that have been kept, with its condition."""
+        call: Any = _new(_Called)
+        call._made = self
+        kind, fields = self._read(given, call)
+        beside = {"span": None, "at": (call, ()), "origin": self}
+        made: Model = entity(kind, {**kind._unwritten(), **fields, **condition}, beside)
+        return made
+
     def _to_model(self, common: Mapping[str, Any]) -> Model:
         given = self._as_given
         if given is not None:
-            call = Arguments(self._place)
-            condition = {} if len(common) == 1 else unchecked(common)
-            if condition is not None and len(vars(self)) == _OF_PLAIN:
-                kind, fields = self._read(given, call)
-                made: Model = entity(
-                    kind,
-                    {**kind._unwritten(), **fields, **condition},
-                    standing_at(call, (), common["origin"]),
-                )
-                return made
-            self._as_given = None
-            self._make(given)  # an attribute has been set, or the condition is for the validator
+            condition = unchecked(common)
+            own = vars(self)
+            if condition is not None and len(own) - ("_place" in own) == _OF_PLAIN:
+                return self._of_given(given, condition)
+            with standing(self._place):  # which is known as long as the arguments are
+                self._as_given = None
+                self._make(given)  # an attribute has been set, or the condition is for the validator
         return self._made(common)
 
     def _read(self, given: dict[str, Any], call: Arguments) -> tuple[type[Model], dict[str, Any]]:
@@ -99,6 +114,23 @@ class PlainAction(ModelledAction):
     def _made(self, common: Mapping[str, Any]) -> Model:
         """Return the model of what the constructor has made."""
         raise NotImplementedError
+
+
+class _Called(Arguments):
+    """The arguments of the call that an action was made by, which knows where that was."""
+
+    __slots__ = ("_made",)
+
+    _made: PlainAction
+
+    if not TYPE_CHECKING:  # else any attribute would be one
+
+        def __getattr__(self, name: str) -> Any:
+            """Return the place, which few calls are asked for."""
+            if name == "place":
+                self.place = self._made._place
+                return self.place
+            return super().__getattr__(name)
 
 
 def is_text(given: dict[str, Any], name: str) -> bool:
@@ -127,5 +159,6 @@ def text_at(value: Any, call: Arguments, *path: Way) -> Template:
         return template(value, argument(call.place, path))
 
 
-# What an action has as long as it is plain: its arguments, its condition, where it was called, and its place.
-_OF_PLAIN = 4
+# What an action has as long as it is plain: its arguments, its condition, and where it was called.
+_OF_PLAIN = 3
+_new = object.__new__

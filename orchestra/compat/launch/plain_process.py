@@ -61,6 +61,18 @@ class PlainProcess(MadeLater, ExecuteLocal):
         else:
             super()._prepared_by(details)
 
+    def _plain_model(self) -> Model | None:
+        own = self.__dict__
+        made: Made | None = own.get("_plain")
+        if made is None or len(own) != _OF_PLAIN or own["_Action__condition"] is not None:
+            return None
+        usual = self._usual
+        fields = made.fields(usual) if self._is_as_described() else None
+        if fields is None:
+            return None
+        model: Model = entity(usual.model, fields, {"span": None, "at": (made, ()), "origin": self})
+        return model
+
     def _to_model(self, common: Mapping[str, Any]) -> Model:
         own = vars(self)
         made: Made | None = own.get("_plain")

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Final
 
+from orchestra.compat.text import is_changed
+
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
@@ -13,7 +15,8 @@ if TYPE_CHECKING:
 class Form:
     """What calls of one form have in common.
 
-    `take` returns what one may differ in from others, None for one of another form; `make` the fields, of that.
+    `take` returns what one may differ in from others, None for one of another form; `make` the fields, of that: None
+    where code has put something else in the place of what performs substitutions since.
     """
 
     __slots__ = ("_skeleton", "make", "take")
@@ -21,7 +24,7 @@ class Form:
     def __init__(
         self,
         take: Callable[[dict[str, Any], Arguments], tuple[Any, ...] | None],
-        make: Callable[[tuple[Any, ...], Arguments], dict[str, Any]],
+        make: Callable[[tuple[Any, ...], Arguments], dict[str, Any] | None],
         skeleton: dict[str, Any],
     ) -> None:
         self.take = take
@@ -71,7 +74,7 @@ class Code:
         self.needed: list[str] = []
         self.variables: list[str] = []
         self.others: list[str] = []
-        self._known = known
+        self._known = known | {"is_changed": is_changed}
         self._levels: list[Level] = []
         self._leaves: list[str] = []
         self._names = 0
@@ -154,14 +157,19 @@ class Code:
         lines += self.others
         taking = "\n  ".join(lines)
         leaves = targets(self._leaves)
-        making = f"{leaves} = leaves" if leaves else ""
+        making = "\n ".join([*self._asked_again(), f"{leaves} = leaves" if leaves else ""])
         text = (
             f"def take(given, call):\n try:\n  {taking}\n except unusual: return None\n return ({leaves})\n"
-            f"def make(leaves, call):\n {making}\n"
-            f" return nothing | {{{', '.join(fields)}}}\n"
+            f"def make(leaves, call):\n {making}\n return nothing | {{{', '.join(fields)}}}\n"
         )
         exec(compile(text, _WRITTEN, "exec"), self._known)  # noqa: S102 - names that are made here
         return Form(self._known["take"], self._known["make"], skeleton)
+
+    def _asked_again(self) -> list[str]:
+        """Return what is asked once more when fields are made, which is later."""
+        if self.others:
+            return ["if is_changed(): return None"]
+        return ["if LaunchConfiguration.perform is not perform: return None"] if self.variables else []
 
 
 def targets(names: Sequence[str]) -> str:

@@ -5,15 +5,14 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
 from orchestra.compat.launch.substitutions.launch_configuration import LaunchConfiguration
+from orchestra.compat.launch_ros import plain_texts
 from orchestra.compat.launch_ros.plain_texts import UnusualError
-from orchestra.compat.text import Listed, new_composed
-from orchestra.description.text import matched_template
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from orchestra.compat.launch_ros.call_code import Code
-    from orchestra.compat.place import Arguments, Way
+    from orchestra.compat.place import Way
     from orchestra.description.text import Template
 
     _Path: TypeAlias = tuple[Way, ...]
@@ -53,7 +52,7 @@ class Texts:
 
     def _mixed(self, level: int, var: str, value: Sequence[Any], path: _Path) -> Read:
         """Read several texts and variables as one text."""
-        skeleton, raw, pieces, names = [], "", "", ""
+        skeleton, raw, pieces, names = [], "", "", []
         items = self._code.items(level, var, value)
         for item_var, item in items:
             skeleton.append(self._code.leaf(item_var))
@@ -66,11 +65,11 @@ class Texts:
             else:
                 whole = self._variable(level + 1, item_var)
                 raw += f"{{{whole}.raw}}"
-                pieces += f"*{whole}.pieces.pieces, "
-                names += f"*{whole}.pieces.variables, "
+                pieces += f"{whole}.pieces.pieces[0], "
+                names.append(f"{whole}.pieces.variables")
         given = "".join(f"{item_var}, " for item_var, _ in items)
         at = self._code.constant(path)
-        made = f'mixed(f"{raw}", ({pieces}), ({names}), ({given}), call, {at})'
+        made = f'mixed(f"{raw}", ({pieces}), {" + ".join(names)}, ({given}), call, {at})'
         return tuple(skeleton) if type(value) is tuple else skeleton, made
 
     def _variable(self, level: int, var: str) -> str:
@@ -80,19 +79,6 @@ class Texts:
         self._code.variables.append(f"{made} = {var}._sure or sure({var})")
         self._code.leaf(made)
         return made
-
-
-def mixed(
-    raw: str,
-    pieces: tuple[Any, ...],
-    names: tuple[str, ...],
-    items: tuple[Any, ...],
-    call: Arguments,
-    path: _Path,
-) -> Template:
-    """Return several texts and variables as the text that an argument of a call holds."""
-    made = new_composed(pieces, names, None, raw, ())
-    return matched_template(raw, False, Listed(call, items), path, made)  # type: ignore[arg-type] # its groups are paths
 
 
 def known(variable: LaunchConfiguration) -> Template | None:
@@ -128,5 +114,6 @@ def is_mixed(value: Any) -> bool:
     )
 
 
+mixed: Final = plain_texts.mixed  # what the code of forms calls
 _SERIES: Final = frozenset({list, tuple})
 _SEVERAL: Final = 2

@@ -63,9 +63,11 @@ class Made(Arguments):
         the arguments are read again. So they are where code may have changed what a substitution among them was given.
         """
         fields, self._fields = self._fields, _GONE
-        if self._shown == shown[0] and not is_changed():
+        if self._shown == shown[0]:
             if fields is None and self._form is not None:
-                return self._form.make(self._kept, self)
+                fields = self._form.make(self._kept, self)
+            elif is_changed():
+                fields = None
             if fields:
                 return fields
         fields = usual.unwritten.copy()

@@ -6,16 +6,25 @@ from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
 from orchestra.compat.calls import CallSubstitution
 from orchestra.compat.launch.substitutions.text_substitution import TextSubstitution
+from orchestra.compat.text import Listed, joined, known_as
 from orchestra.compat.text import composed as several
-from orchestra.compat.text import joined
 from orchestra.description.model import Model
-from orchestra.description.text import Template, matched_words, new_template, new_words
+from orchestra.description.text import (
+    MatchedTemplate,
+    Pieces,
+    Template,
+    matched_template,
+    matched_words,
+    new_template,
+    new_words,
+)
 from orchestra.description.written import escaped
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
     from orchestra.compat.place import Arguments, Way
+    from orchestra.description.text import Part
     from orchestra.location import Span
 
 
@@ -104,7 +113,7 @@ def divisible(text: str, span: Span) -> Template:
 
 def composed(items: Any, call: Arguments, path: tuple[Way, ...]) -> Template:
     """Return several texts and substitutions as one, which an argument of a call holds."""
-    made = several(items, call, path)
+    made = of_variables(items, call, path) or several(items, call, path)
     if made is not None:
         return made
     if len(items) == 1 and type(items[0]) is not str and type(items[0]) is not TextSubstitution:
@@ -115,6 +124,62 @@ def composed(items: Any, call: Arguments, path: tuple[Way, ...]) -> Template:
             whole_text(item)
     parts, raw = joined(items, span)
     return new_template(parts, raw, parts[0].span if len(parts) == 1 else span)
+
+
+class Mixed(Listed):
+    """Texts and variables in an argument of a call: what is concatenated, and what knows where that stands, in one."""
+
+    __slots__ = ("pieces", "variables")
+
+    pieces: tuple[Any, ...]
+    variables: tuple[str, ...]
+    beside = None
+    filled = Pieces.filled  # which asks for the two above
+
+    def placed_in(self, template: MatchedTemplate) -> tuple[Part, ...]:
+        """Return them as parts of a text."""
+        return self.parts(template.span)
+
+
+def mixed(
+    raw: str,
+    pieces: tuple[Any, ...],
+    variables: tuple[str, ...],
+    items: tuple[Any, ...],
+    call: Arguments,
+    path: tuple[Way, ...],
+) -> Template:
+    """Return several texts and variables as the text that an argument of a call holds."""
+    made: Any = _new(Mixed)
+    made._call = call
+    made._items = items
+    made.pieces = pieces
+    made.variables = variables
+    return matched_template(raw, False, made, path, made)  # type: ignore[arg-type] # its groups are paths
+
+
+def of_variables(items: Any, call: Arguments, path: tuple[Way, ...]) -> Template | None:
+    """Return the same of texts and variables, with at least one of these; None for others."""
+    known = known_as(items)
+    if known is None or len(known) < _SEVERAL:
+        return None
+    raw = ""
+    pieces: tuple[Any, ...] = ()
+    names: tuple[str, ...] = ()
+    for item, said in zip(items, known, strict=True):
+        if type(said) is str and said:
+            raw += escaped(said)
+            pieces += (said,)
+        elif type(said) is tuple and said[0] == _VARIABLE:
+            whole = item._whole()
+            if type(whole) is not MatchedTemplate or whole is not item._sure or whole.pieces is None:
+                return None
+            raw += whole.raw
+            pieces += whole.pieces.pieces
+            names += whole.pieces.variables or ()
+        else:
+            return None
+    return mixed(raw, pieces, names, tuple(items), call, path) if names else None
 
 
 def copied(value: Any) -> Any:
@@ -145,6 +210,8 @@ _OPTIONAL: Final = frozenset(
     | {"extra_arguments", "sigterm_timeout", "sigkill_timeout"}
 )
 _SERIES: Final = frozenset({list, tuple})
+_SEVERAL: Final = 2
+_VARIABLE: Final = "var"
 _new = object.__new__
 _set_beside: Final[Callable[[Any, dict[str, Any]], None]] = vars(Model)["__pydantic_private__"].__set__
 _set_values: Final[Callable[[Any, dict[str, Any]], None]] = vars(Model)["__dict__"].__set__

@@ -59,7 +59,7 @@ def _models(entities: Iterable[Any], run: Resolution, place: Place | None) -> It
 
 def _model(entity: Any, run: Resolution, place: Place | None) -> Model | None:
     """Return the model of an entity; of one without, what it holds is visited."""
-    if "_lost" in vars(entity):
+    if entity._lost is not None:
         run.scope.ledger.incomplete = True
         name = vars(entity).get("_lost_name")
         if isinstance(name, str):  # what reads it is not to be told of it

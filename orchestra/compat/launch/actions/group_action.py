@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
-from orchestra.compat.building import made_of, models_of
+from orchestra.compat.building import made_of, models_in, models_of
 from orchestra.compat.extensions import extension_fields, taken
 from orchestra.compat.launch.event_handler import is_of_ours
 from orchestra.compat.launch.plain_action import PlainAction, text_at
@@ -82,7 +82,7 @@ class GroupAction(PlainAction):
         )
 
     def _read(self, given: dict[str, Any], call: Arguments) -> tuple[type[Model], dict[str, Any]]:
-        fields: dict[str, Any] = {"children": models_of(given["actions"], call.place)}
+        fields: dict[str, Any] = {"children": models_in(given["actions"], call)}
         if given.get("scoped") is False:
             fields["scoped"] = text_at("false", call)
         if given.get("forwarding") is False:

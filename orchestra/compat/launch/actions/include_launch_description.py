@@ -156,12 +156,9 @@ class IncludeLaunchDescription(PlainAction):
         ]
         return Include, {"file": file, "arg": tuple(given_to_it)}
 
-    def _to_model(self, common: Mapping[str, Any]) -> Model:
-        model = super()._to_model(common)
-        given = self._as_given
-        if given is not None:
-            cast("Include", model).read_as(given["launch_description_source"]._language)
-        return model
+    def _of_given(self, given: dict[str, Any], condition: dict[str, Any]) -> Model:
+        model = cast("Include", super()._of_given(given, condition))
+        return model.read_as(given["launch_description_source"]._language)
 
     def _made(self, common: Mapping[str, Any]) -> Model:
         span = self._place.span

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Self
+from typing import TYPE_CHECKING, Any, Self, TypeGuard
 
 from orchestra.compat.calls import own
 from orchestra.compat.described import described
@@ -11,9 +11,9 @@ from orchestra.compat.launch.substitutions.text_substitution import TextSubstitu
 from orchestra.compat.parsed import ParsedSubstitution
 from orchestra.compat.performed import Concatenated
 from orchestra.compat.place import IN_CONSTRUCTOR, here
-from orchestra.compat.text import LIST, known_as, normalized, perform_alike
+from orchestra.compat.text import LIST, joined, known_as, normalized, perform_alike
 from orchestra.compat.wrong import WrongType
-from orchestra.description.written import escaped
+from orchestra.description.written import called, escaped
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -78,13 +78,21 @@ class PathJoinSubstitution(ParsedSubstitution):
     def _raw(self) -> str:
         """Return the path as launch files in YAML and XML have it: with slashes, where to join is no more than that."""
         first, *others = self.substitutions
-        if getattr(first, "_name", None) not in _FOLDERS or not all(map(_follows, others)):
-            return super()._raw()
-        texts = [item.text for item in others if isinstance(item, TextSubstitution)]
-        if any(text[-1] == "/" for text in texts[:-1]):
+        texts = [item.text if type(item) is TextSubstitution else None for item in others]
+        if not _may_follow(texts, first):
             return super()._raw()
         whole = first._whole()
         return "/".join((first._raw() if whole is None else whole.raw, *map(escaped, texts)))
+
+    def _written(self) -> str:
+        given: Any = self._as_given  # which it has as long as it is known
+        held = [item if type(item) is list else [item] for item in given[0][0]]
+        components: list[Any] = [items[0] if len(items) == 1 else items for items in held]
+        first, *others = components
+        texts = [item.text if type(item) is TextSubstitution else item for item in others]
+        if _may_follow(texts, first):
+            return "/".join((first._whole().raw, *map(escaped, texts)))
+        return called(self._name, [joined(items, self._place.span)[1] for items in held])
 
     def _paths(self) -> Sequence[tuple[Step, ...]]:
         return [("substitutions", index) for index in range(len(self.substitutions))]
@@ -93,9 +101,13 @@ class PathJoinSubstitution(ParsedSubstitution):
 perform_alike(PathJoinSubstitution)
 
 
-def _follows(item: Substitution) -> bool:
-    """Return whether a component is a text that may as well follow a slash."""
-    return type(item) is TextSubstitution and item.text[:1] not in ("", "/")
+def _may_follow(others: list[Any], first: Any) -> TypeGuard[list[str]]:
+    """Return whether components are texts that may as well follow a slash, and the first one is a folder."""
+    if getattr(first, "_name", None) not in _FOLDERS:
+        return False
+    if any(type(text) is not str or text[:1] in ("", "/") for text in others):
+        return False
+    return all(text[-1] != "/" for text in others[:-1])
 
 
 def _known_in(items: list[Any]) -> tuple[Any, ...] | None:
