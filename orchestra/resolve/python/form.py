@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from itertools import repeat
-from operator import itemgetter
+from operator import contains, itemgetter
 from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.compat.looks import Compiled
@@ -141,7 +141,7 @@ def _named(literal: str, before: str | None, index: int) -> tuple[type[Any] | No
 
 def _numbers(whole: tuple[str, ...], others: tuple[str, ...]) -> list[tuple[type[Any], Any]] | None:
     """Return the values of numbers with their types; None where one is written in another way than it is shown."""
-    if not all("." in number for number in others):
+    if not all(map(contains, others, repeat("."))):
         return None
     try:
         ints, floats = list(map(int, whole)), list(map(float, others))

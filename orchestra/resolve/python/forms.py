@@ -29,6 +29,7 @@ from orchestra.patterns import pattern
 from orchestra.resolve.python.form import Form
 from orchestra.resolve.python.form_codes import variables
 from orchestra.resolve.python.form_slots import Slots, split
+from orchestra.resolve.python.numbered import asked_of
 
 if TYPE_CHECKING:
     from orchestra.compat.looks import Compiled
@@ -52,11 +53,14 @@ class Forms:
 
     def compiled(self, path: str, source: bytes) -> Compiled | None:
         """Return the code of a file, None where no form is known."""
-        lines = source.count(b"\n")
-        text = _plain(source) if lines in self._known else None
-        if text is None:
+        known = self._known.get(lines := source.count(b"\n"))
+        text = None if known is None else _plain(source)
+        if known is None or text is None:
             return None
-        for first in self._known[lines]:
+        for other in [other for first in known for other in first.to_learn()]:
+            if not any(first.learns(other) for first in reversed(known)):
+                _add(known, other)
+        for first in known:
             made = None if first.form is None else first.form.compiled(path, source, text)
             if made is not None:
                 self._missed[lines] = 0
@@ -64,29 +68,35 @@ class Forms:
         return None
 
     def add(self, compiled: Compiled) -> None:
-        """Learn from a file that was compiled, of which the compiler had nothing to tell."""
+        """Learn from a file that was compiled, of which the compiler had nothing to tell.
+
+        Nothing is done with it before a third one comes that may be alike.
+        """
         lines = compiled.source.count(b"\n")
         missed = self._missed[lines] = self._missed.get(lines, 0) + 1
         text = _plain(compiled.source) if missed <= _PATIENCE else None
         if text is None:
-            return
-        parts = split(text)
-        if len(parts) <= _FEW:
             return
         known = self._known.get(lines)
         if known is None:
             if len(self._known) >= _MOST:
                 del self._known[next(iter(self._known))]
             known = self._known[lines] = []
-        if not any(first.learns(parts, compiled) for first in reversed(known)) and len(known) < _FEW:
-            known.append(First(parts, compiled))
+        other = First(text, compiled)
+        if not any(first.takes(other) for first in reversed(known)):
+            _add(known, other)
+
+
+def _add(known: list[First], first: First) -> None:
+    if len(known) < _FEW:
+        known.append(first)
 
 
 def _plain(source: bytes) -> str | None:
     """Return a text in which a column is a byte; None for another one."""
     if sys.version_info[:2] not in _KNOWN or not source.isascii() or any(odd in source for odd in _ODD):
         return None
-    if b"coding" in source and _CODED.match(source):
+    if _CODED.match(source):
         return None
     return source.decode("ascii")
 
@@ -94,32 +104,53 @@ def _plain(source: bytes) -> str | None:
 class First:
     """A file that was compiled, of which a form is learned with other ones."""
 
-    def __init__(self, parts: list[str], compiled: Compiled) -> None:
+    def __init__(self, text: str, compiled: Compiled) -> None:
         self.form: Form | None = None
+        self._text = text
         self._compiled = compiled
-        self._parts = parts
-        self._between = parts[::2]
+        self._asked = asked_of(compiled.code)
+        self._to_learn: list[First] = []
+        self._parts: list[str] = []
         self._slots: Slots | None = None
         self._others = set[int]()
         self._is_known = False
         self._tries = _TRIES
 
-    def learns(self, parts: list[str], compiled: Compiled) -> bool:
+    def takes(self, other: First) -> bool:
+        """Return whether another file may be of one form with this one, as it is then learned with the third one."""
+        if self._tries == 0 or other._asked != self._asked:
+            return False
+        self._to_learn.append(other)
+        return True
+
+    def to_learn(self) -> list[First]:
+        """Return those that were taken since the last time."""
+        others, self._to_learn = self._to_learn, []
+        return others
+
+    @property
+    def parts(self) -> list[str]:
+        """The text between literals, and those."""
+        self._parts = self._parts or split(self._text)
+        return self._parts
+
+    def learns(self, other: First) -> bool:
         """Return whether there is a form of this file and another one, or cannot be one with any."""
-        if self._tries == 0 or parts[::2] != self._between:
+        if self._tries == 0 or other._asked != self._asked or other.parts[::2] != self.parts[::2]:
             return False
         self._tries -= 1
-        with suppress(Exception):  # as below
-            if not self._is_known:
-                self._is_known = True
-                self._slots = Slots(self._parts, variables(self._compiled.code))
+        if not self._is_known:
+            self._is_known = True
+            with suppress(Exception):  # as below
+                if len(self.parts) > _FEW:
+                    self._slots = Slots(self.parts, variables(self._compiled.code))
         if self._slots is None:
             return True
-        own, literals = self._parts[1::2], parts[1::2]
+        own, literals = self.parts[1::2], other.parts[1::2]
         others = self._others.union(index for index, text in enumerate(literals) if text != own[index])
         with suppress(Exception):  # whatever stands against it
             places, taken = self._slots.at(sorted(others))
-            self.form = Form((self._parts, self._compiled), (parts, compiled), places, taken)
+            self.form = Form((self.parts, self._compiled), (other.parts, other._compiled), places, taken)
             self._others = others
             return True
         return False

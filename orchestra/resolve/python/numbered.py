@@ -27,10 +27,21 @@ class Told:
     def __init__(self, fixed: Collection[bytes] = ()) -> None:
         self._fixed = sorted(fixed)
         self._known: dict[object, dict[str, bool]] = {}
+        self._alone: dict[
+            object, Compiled | None
+        ] = {}  # files by what else looks ask; None where there are several
 
     def add(self, compiled: Compiled) -> None:
         """Have a file share what looks tell of it with those that are alike, by now and later on."""
-        self.share(compiled, compiled.source, _asked(compiled.code))
+        asked = asked_of(compiled.code)
+        if asked not in self._alone:
+            if len(self._alone) >= _MOST:
+                del self._alone[next(iter(self._alone))]
+            self._alone[asked] = compiled
+            return
+        first, self._alone[asked] = self._alone[asked], None
+        for alike in (compiled,) if first is None else (first, compiled):
+            self.share(alike, alike.source, asked)
 
     def share(self, compiled: Compiled, text: bytes, asked: object) -> None:
         """Have a file share what looks tell of it, by a text and whatever else they ask."""
@@ -58,14 +69,15 @@ def numbers_of(text: str) -> set[bytes]:
 def _skeleton(source: bytes) -> bytes:
     """Return a text with 0 for each number; an expression would take five times as long."""
     key = source.translate(_AS_ZERO)
+    key = key.replace(b"000", b"0")  # as most are that have several digits
     while b"00" in key:
         key = key.replace(b"00", b"0")
     return key
 
 
-def _asked(code: CodeType) -> tuple[Any, ...]:
+def asked_of(code: CodeType) -> tuple[Any, ...]:
     """Return the instructions and names of a code, and of those in it."""
-    inner = [_asked(item) for item in code.co_consts if type(item) is CodeType]
+    inner = [asked_of(item) for item in code.co_consts if type(item) is CodeType]
     return code.co_code, code.co_names, *inner
 
 
