@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from collections.abc import Set as AbstractSet
-from itertools import repeat
 from operator import attrgetter
 from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
@@ -46,7 +45,6 @@ LIST: Final = ""  # what several are known by as one component of a path, in the
 performing: Final[dict[type[Substitution], Any]] = {}
 # These kinds, and texts, which are known as themselves.
 kinds: Final[set[type[Any]]] = {str, TextSubstitution}
-_KNOWN_AS: Final = repeat("_known_as")
 # How often something that is known as itself has been shown to code, which may change it from then on.
 shown: Final = [0]
 _perform: Final = attrgetter("perform")
@@ -121,7 +119,16 @@ def joined(items: Iterable[Any], span: Span) -> tuple[tuple[Part, ...], str]:
 
 def known_as(items: Sequence[Any]) -> tuple[Any, ...] | None:
     """Return what several texts and substitutions are known as; None where one is of another kind."""
-    return tuple(map(getattr, items, _KNOWN_AS, items)) if kinds.issuperset(map(type, items)) else None
+    found: list[Any] = []
+    for item in items:  # one by one, which is done sooner than types and attributes are mapped
+        kind = type(item)
+        if kind is str:
+            found.append(item)
+        elif kind in kinds:
+            found.append(item._known_as)
+        else:
+            return None
+    return tuple(found)
 
 
 def perform_alike(*alike: type[Substitution]) -> None:

@@ -36,28 +36,7 @@ class PlainAction(ModelledAction):
         if "_plain" not in vars(cls):
             return None
         cls._plain_names = frozenset(cls._plain[1])
-        return cls._keep
-
-    def _keep(self, arguments: tuple[Any, ...], keywords: dict[str, Any]) -> bool:
-        condition = None
-        if arguments:
-            most, names = self._plain
-            if len(arguments) > most:
-                return False
-            given = dict(zip(names, arguments))  # noqa: B905 - fewer than names, and a keyword takes its time
-            if keywords:
-                if not given.keys().isdisjoint(keywords):
-                    return False
-                given |= keywords
-        else:
-            given = keywords.copy()
-        if keywords:
-            condition = given.pop("condition", None)
-        if not self._is_plain(given):
-            return False
-        self._Action__condition = condition
-        self._as_given = given
-        return True
+        return _keeping(*cls._plain, cls._is_plain)
 
     def _is_plain(self, given: dict[str, Any]) -> bool:
         """Return whether the constructor has nothing to say about these arguments; what may change is copied.
@@ -67,7 +46,7 @@ class PlainAction(ModelledAction):
         for name, value in given.items():
             if type(value) is not str and not is_text(given, name):
                 return False
-        return given.keys() == self._plain_names
+        return given.keys() == type(self)._plain_names
 
     def _make(self, given: Any) -> None:
         own = vars(self).copy()
@@ -133,15 +112,42 @@ class _Called(Arguments):
             return super().__getattr__(name)
 
 
+def _keeping(
+    most: int, names: tuple[str, ...], is_plain: Callable[[Any, dict[str, Any]], bool]
+) -> Callable[[Any, tuple[Any, ...], dict[str, Any]], bool]:
+    """Return what keeps the arguments of a class: it has at hand what the class says, which takes long to look up."""
+
+    def keep(self: Any, arguments: tuple[Any, ...], keywords: dict[str, Any]) -> bool:
+        condition = None
+        if arguments:
+            if len(arguments) > most:
+                return False
+            given = dict(zip(names, arguments))  # noqa: B905 - fewer than names, and a keyword takes its time
+            if keywords:
+                if not given.keys().isdisjoint(keywords):
+                    return False
+                given |= keywords
+        else:
+            given = keywords.copy()
+        if keywords:
+            condition = given.pop("condition", None)
+        if not is_plain(self, given):
+            return False
+        self._Action__condition = condition
+        self._as_given = given
+        return True
+
+    return keep
+
+
 def is_text(given: dict[str, Any], name: str) -> bool:
     """Return whether an argument is a text, a substitution, or several of both; a list is copied."""
     value = given[name]
     kind = type(value)
     if kind is list or kind is tuple:
-        if not kinds.issuperset(map(type, value)):
-            for item in value:
-                if type(item) is not str and not isinstance(item, Substitution):
-                    return False
+        for item in value:
+            if type(item) is not str and type(item) not in kinds and not isinstance(item, Substitution):
+                return False
         given[name] = [*value]
         return True
     return kind is str or isinstance(value, Substitution)
