@@ -87,10 +87,11 @@ class PlainProcess(MadeLater, ExecuteLocal):
 
 def _says_output(environ: Any) -> bool:
     """Return whether the environment says where the output of all processes goes."""
-    known = getattr(
-        environ, "_data", None
-    )  # the table itself: to go through `os.environ` takes ten times as long
-    return OVERRIDE in environ if known is None else _OVERRIDE in known
+    try:
+        known = environ._data  # the table itself: to go through `os.environ` takes ten times as long
+    except AttributeError:
+        return OVERRIDE in environ
+    return _OVERRIDE in known
 
 
 def _model(made: Made, usual: Usual, common: Mapping[str, Any]) -> Any:
