@@ -372,7 +372,7 @@ def test_what_is_wrong_with_a_value_is_all_that_is_told(tmp_path: Path) -> None:
         "        composable_node_descriptions=[part])])\n"
     )
     collect(str(file), inputs_from((), environment={"PATH": "/usr/bin:/bin"}), problems := Problems())
-    assert [problem.span.line for problem in problems] == [5]
+    assert [problem.span and problem.span.line for problem in problems] == [5]
 
 
 def test_what_is_changed_in_a_node_counts() -> None:
