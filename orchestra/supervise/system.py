@@ -152,7 +152,7 @@ class System:
 
     def wrote(self, process: str, pid: int, stream: str, data: bytes) -> None:
         """A program has written something."""
-        if self._triggers.awaited("process_output"):
+        if self._triggers.awaits("process_output"):
             self._triggers.happened(happenings.wrote(process, pid, stream, data))
 
     def failed(self, reason: str, about: str | None = None) -> None:
@@ -192,12 +192,11 @@ class System:
         """Deactivate the lifecycle nodes in a process before it is ended."""
         self._nodes.quiesce(process, done)
 
-    # What triggers do.
-
     def carry_out(self, action: TriggeredAction) -> None:
         """Do what a trigger says."""
         self._actions.carry_out(action)
-        self.changed()
+        self._roll.carried_out(action)
+        self.again()
 
     def trigger_failed(self, reason: str) -> None:
         """A trigger could not do what it should: the run is not what was described."""

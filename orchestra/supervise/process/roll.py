@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
     from orchestra.plan.model import Process
+    from orchestra.plan.reactions import TriggeredAction
     from orchestra.supervise.process.unit import Unit
 
 _LIVELY = frozenset({*LIVE, Phase.RESTARTING})
@@ -46,6 +47,13 @@ class Roll:
         _note(self._halted, process, wanted=halted)
         _note(self._required, process, wanted=unit.process.required and unit.over and not halted)
         self._unseen.add(process)
+
+    def carried_out(self, action: TriggeredAction) -> None:
+        """An action has been carried out: what it does to a process is told by that, but for what it waited for."""
+        if action.action == "start":
+            self._unseen.add(action.process)
+        elif action.action == "load":  # into a container that may be any of them
+            self._all_unseen = True
 
     def keeps_on(self, *, ending: bool) -> bool:
         """Tell whether a process keeps the run from being over; one that an operator has ended may come back."""

@@ -35,7 +35,8 @@ class Stopping:
         self._units = units
         self._around = surroundings
         self._levels: dict[str, int] = {}
-        self._live: list[set[str]] = []  # by level
+        self._live: list[dict[str, Unit]] = []  # by level
+        self._first = 0  # no lower level has any
         self._asked = -1
         self._deadline_after = order.DEADLINE
         self._interrupts = 0
@@ -73,7 +74,7 @@ class Stopping:
         self._around.recorder.record("run_stopping", cause=cause)
         for unit in self._units.values():
             unit.handle(life.StopAhead() if unit.state.phase in LIVE else life.StopRequested())
-        self._live = [set() for _ in range(1 + max(self._levels.values(), default=0))]
+        self._live = [{} for _ in range(1 + max(self._levels.values(), default=0))]
         for unit in self._units.values():
             self.changed(unit.id)
         schedule = self._schedule()
@@ -95,17 +96,19 @@ class Stopping:
         """A process is in another phase; before the end of the run that is of no concern here."""
         if not self._live:
             return
-        level = self._live[self._levels[process]]
-        if self._units[process].state.phase in LIVE:
-            level.add(process)
+        level, unit = self._levels[process], self._units[process]
+        if unit.state.phase in LIVE:
+            self._live[level][process] = unit
+            self._first = min(self._first, level)
         else:
-            level.discard(process)
+            self._live[level].pop(process, None)
 
     def go_on(self) -> None:
         """Ask the processes on which nothing that runs depends any more."""
-        running = next((level for level, live in enumerate(self._live) if live), None)
-        if running is not None:
-            self._stop_level(running)
+        while self._first < len(self._live) and not self._live[self._first]:
+            self._first += 1
+        if self._first < len(self._live):
+            self._stop_level(self._first)
 
     def interrupted(self, number: int) -> None:
         """Take note of one more stop signal: Ctrl-C twice means now, three times at once."""
@@ -136,8 +139,8 @@ class Stopping:
         if level <= self._asked:
             return
         self._asked = level
-        for unit in self._units.values():
-            if self._levels[unit.id] <= level and unit.state.phase is not Phase.STOPPING:
+        for unit in [unit for live in self._live[self._first : level + 1] for unit in live.values()]:
+            if unit.state.phase is not Phase.STOPPING:
                 unit.handle(life.StopRequested())
 
     def _escalate(self, rung: int, announcement: str) -> None:

@@ -38,14 +38,14 @@ class Triggers:
         self._fire = fire
         self._known: dict[str, Trigger] = {}
         self._waiting = Waiting()
-        self._delayed: list[tuple[Timer, Trigger]] = []
+        self._delayed: dict[int, tuple[Timer, Trigger]] = {}  # in the order in which they were set off
+        self._set_off_so_far = 0
         self._started = False
         self._stopping = False
 
     @property
     def pending(self) -> bool:
         """Whether an event has happened whose actions are still to come."""
-        self._delayed = [entry for entry in self._delayed if not entry[0].cancelled]
         return bool(self._delayed)
 
     def add(self, triggers: Iterable[Trigger]) -> None:
@@ -72,13 +72,13 @@ class Triggers:
     def cancel(self, name: str) -> None:
         """Let a trigger wait no more, and drop what its delay puts off."""
         self.unregister(name)
-        for timer, trigger in self._delayed:
+        for number, (_, trigger) in [*self._delayed.items()]:
             if trigger.id == name and trigger.delay:
-                timer.cancel()
+                self._drop(number)
 
-    def awaited(self, event: EventName) -> list[Trigger]:
-        """Return the triggers that wait for events of a kind."""
-        return self._waiting.on_event(event)
+    def awaits(self, event: EventName) -> bool:
+        """Tell whether a trigger waits for events of a kind, or has waited."""
+        return self._waiting.has(event)
 
     def may_wait(self, event: EventName) -> list[Trigger]:
         """Return the triggers on events of a kind, also those that do not wait yet."""
@@ -107,11 +107,11 @@ class Triggers:
         """The run is ending: drop what is delayed unless it says otherwise; return what says so, but is too late."""
         self._stopping = True
         lost = []
-        for timer, trigger in self._delayed:
+        for number, (timer, trigger) in [*self._delayed.items()]:
             remaining = timer.due - self._loop.clock()
-            if timer.cancelled or not trigger.delay or self._still_happens(trigger, remaining):
+            if not trigger.delay or self._still_happens(trigger, remaining):
                 continue
-            timer.cancel()
+            self._drop(number)
             if not trigger.cancel_on_shutdown:
                 lost.append(trigger)
         return lost
@@ -120,5 +120,16 @@ class Triggers:
         return not trigger.cancel_on_shutdown and remaining <= LONGEST_AT_THE_END
 
     def _later(self, delay: float, happening: Happening, triggers: Sequence[Trigger]) -> None:
-        timer = self._loop.call_later(delay, partial(self._fire, happening, triggers))
-        self._delayed.append((timer, triggers[0]))
+        number = self._set_off_so_far = self._set_off_so_far + 1
+        timer = self._loop.call_later(delay, partial(self._come, number, happening, triggers))
+        self._delayed[number] = (timer, triggers[0])
+
+    def _come(self, number: int, happening: Happening, triggers: Sequence[Trigger]) -> None:
+        """Hand on what was put off."""
+        del self._delayed[number]
+        self._fire(happening, triggers)
+
+    def _drop(self, number: int) -> None:
+        """Forget what is put off."""
+        timer, _ = self._delayed.pop(number)
+        timer.cancel()

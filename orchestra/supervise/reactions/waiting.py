@@ -34,10 +34,9 @@ class Waiting:
         if place is not None:
             del place[name]
 
-    def on_event(self, event: EventName) -> list[Trigger]:
-        """Return those that wait for events of a kind."""
-        places = self._by_event.get(event, {}).values()
-        return _in_order(entry for place in places for entry in place.values())
+    def has(self, event: EventName) -> bool:
+        """Tell whether one waits for events of a kind, or has waited."""
+        return event in self._by_event
 
     def about(self, happening: Happening) -> list[Trigger]:
         """Return those that wait for such an event of its target, or of any."""
