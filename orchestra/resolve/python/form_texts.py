@@ -1,7 +1,7 @@
 """What stands in the slots of texts that are alike: one expression takes these apart, then all is compared at once.
 
 Of what stands between slots the expression asks only how long it is, so that it takes no step for each character,
-neither to be made nor to match. What it has found is right where it is what the text with these values is made of.
+neither to be made nor to match. What it has found is right where a text that is put together of it is the same.
 """
 
 from __future__ import annotations
@@ -15,6 +15,8 @@ from orchestra.resolve.python.form_slots import QUOTES
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
+
+    from orchestra.load.alike.assembled import Part
 
 # What stands before a slot, and what the slot ends with.
 _Piece: TypeAlias = tuple[str, str]
@@ -33,29 +35,39 @@ class FormText:
         """
         pieces, end = _pieces(parts, places)
         fixed = [piece for piece, _ in pieces]
-        self._between = (*fixed, end)
-        slots = [((AS_LONG, piece), (BEFORE, stop)) for piece, stop in pieces]
-        grouped = [((OPEN, ""), part, (CLOSE, "")) for part in (*chain(*slots), (AS_LONG, end))]
-        self._match = assembled(list(chain(*grouped))).fullmatch
-        count = len(set(numbers))
-        self._count = count - list(places.values()).count(None)
-        self._values = taking([2 * numbers.index(number) + 1 for number in range(count)])
-        whole = [(count + index, number) for index, number in enumerate(numbers)]
-        self._whole = taking([*chain(*whole), count + len(numbers)])
+        self._whole = [*chain(*zip(fixed, fixed)), end]  # noqa: B905 - with something in place of each value
+        self._each = taking(numbers)
+        firsts: dict[int, str] = {}
+        taken: list[Part] = []
+        # Values that end with something else where they stand again, by their numbers.
+        self._elsewhere: list[tuple[int, str]] = []
+        for number, (piece, stop) in zip(numbers, pieces, strict=True):
+            if number in firsts:
+                taken += (AS_LONG, piece), (BEFORE, stop)
+                if stop != firsts[number]:
+                    self._elsewhere.append((number, stop))
+            else:
+                firsts[number] = stop
+                taken += (AS_LONG, piece), (OPEN, ""), (BEFORE, stop), (CLOSE, "")
+        self._match = assembled([*taken, (AS_LONG, end)]).fullmatch
+        order = list(firsts)
+        self._values = taking(list(map(order.index, range(len(order)))))
+        self._count = len(order) - list(places.values()).count(None)
 
     @property
     def fixed(self) -> str:
         """What the texts have in common."""
-        return "\n".join(self._between)
+        return "\n".join(self._whole[::2])
 
     def values(self, text: str) -> tuple[str, ...] | None:
         """Return the values of a text by their numbers but for comments; None where the rest of it is another one."""
         found = self._match(text)
         if found is None:
             return None
-        groups = found.groups()
-        values = self._values(groups)
-        if self._whole(values + self._between) != groups:
+        values = self._values(found.groups())
+        whole = self._whole.copy()
+        whole[1::2] = self._each(values)
+        if "".join(whole) != text or any(stop in values[number] for number, stop in self._elsewhere):
             return None
         if any(_CODING in comment for comment in values[self._count :]):
             return None
