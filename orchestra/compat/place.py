@@ -55,10 +55,7 @@ Way: TypeAlias = Step | Letters  # what may end a path
 
 
 class Place:
-    """A point in the user's code. The span is worked out when it is asked for, which few objects are.
-
-    `kind` is the class of what was made there, where something was.
-    """
+    """A point in the user's code, whose span few ask for; `kind` is the class of what was made there, if anything."""
 
     __slots__ = ("_code", "_instruction", "_span", "kind")
 
@@ -258,8 +255,7 @@ class Instructions:
     @property
     def file(self) -> str:
         """The file, as it is shown to people."""
-        if self._file is None:
-            self._file = shown(self._code.co_filename)
+        self._file = self._file or shown(self._code.co_filename)
         return self._file
 
     def place(self, offset: int) -> tuple[int, int]:
@@ -269,8 +265,7 @@ class Instructions:
         return (span.end_line, span.end_column) if end else (span.line, span.column)
 
     def _at(self, index: int) -> _Positions:
-        if self._positions is None:
-            self._positions = list(self._code.co_positions())
+        self._positions = self._positions or list(self._code.co_positions())
         known = self._positions[index] if index < len(self._positions) else (None, None, None, None)
         return (known[0] or self._code.co_firstlineno, *known[1:])
 
