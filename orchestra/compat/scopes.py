@@ -4,12 +4,24 @@ from __future__ import annotations
 
 import ast
 from collections import deque
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, Final, TypeAlias
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
 Function: TypeAlias = ast.FunctionDef | ast.AsyncFunctionDef
+
+# What may set names, and what may decide by something: of a file's nodes few are such, and all are asked.
+_SETTING: Final = frozenset(
+    {
+        *(ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef, ast.Import, ast.ImportFrom, ast.Assign),
+        *(ast.Delete, ast.AnnAssign, ast.AugAssign, ast.NamedExpr, ast.For, ast.AsyncFor, ast.comprehension),
+        ast.withitem,
+    }
+)
+_DECIDING: Final = frozenset(
+    {ast.If, ast.While, ast.IfExp, ast.Assert, ast.Call, ast.ListComp, ast.GeneratorExp}
+)
 
 
 def of_scope(scope: Function | ast.Module) -> Iterator[ast.AST]:
@@ -24,6 +36,8 @@ def of_scope(scope: Function | ast.Module) -> Iterator[ast.AST]:
 
 def names_set(node: ast.AST) -> Iterator[str]:
     """Yield the names that a statement or a target sets."""
+    if type(node) not in _SETTING:
+        return
     if isinstance(node, Function | ast.ClassDef):
         yield node.name
     elif isinstance(node, ast.Import | ast.ImportFrom):
@@ -64,6 +78,8 @@ def parameters(function: Function) -> set[str]:
 
 def decided_by(node: ast.AST) -> list[ast.expr]:
     """Return what a statement or an expression decides by, with what `and`, `or` and `not` are put between."""
+    if type(node) not in _DECIDING:
+        return []
     match node:
         case ast.If(test=test) | ast.While(test=test) | ast.IfExp(test=test) | ast.Assert(test=test):
             return [test]
