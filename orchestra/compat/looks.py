@@ -194,7 +194,7 @@ def tell_misused(compiled: Compiled, path: str, problems: Problems, chain: tuple
     if compiled.may("misused"):
         from orchestra.compat.misused import tell  # noqa: PLC0415 - only what may be a mistake needs it
 
-        tell(compiled, path, problems, chain)
+        tell(compiled.code, compiled.source, path, problems, chain)
 
 
 def tell_slips(compiled: Compiled, path: str, problems: Problems, chain: tuple[Span, ...]) -> None:

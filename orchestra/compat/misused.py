@@ -19,7 +19,6 @@ if TYPE_CHECKING:
     from collections.abc import Set as AbstractSet
     from types import CodeType
 
-    from orchestra.compat.looks import Compiled
     from orchestra.compat.signs import Codes
     from orchestra.errors import Problems
     from orchestra.location import Span
@@ -282,15 +281,14 @@ def _is_of_name(character: bytes) -> bool:
     return character.isalnum() or character == b"_"
 
 
-def tell(compiled: Compiled, path: str, problems: Problems, includes: tuple[Span, ...]) -> None:
+def tell(code: CodeType, source: bytes, path: str, problems: Problems, includes: tuple[Span, ...]) -> None:
     """Report what a launch file misuses: what there is a sign of is looked for."""
     # Here, because only what may be a mistake needs them, and what they import.
     from importlib import import_module  # noqa: PLC0415
 
     from orchestra.compat.syntax_trees import tree_of  # noqa: PLC0415
 
-    signs = _signs(codes_in(compiled.code), compiled.source)
-    found = {*chain.from_iterable(compress(_TOLD_BY, signs))}
+    found = {*chain.from_iterable(compress(_TOLD_BY, _signs(codes_in(code), source)))}
     tree = tree_of(path) if found else None
     for module, name in _TELLING.items():
         if tree is not None and module in found:

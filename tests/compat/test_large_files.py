@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from orchestra.compat.looks import Compiled
 from orchestra.compat.misused import tell
 from orchestra.errors import Problems
 from orchestra.load.expressions import as_substitutions
@@ -19,7 +18,7 @@ def _told(tmp_path: Path, text: str) -> int:
     file = tmp_path / "many.launch.py"
     file.write_text(text, "utf-8")
     problems = Problems()
-    tell(Compiled(compile(text, str(file), "exec"), text.encode(), {}), str(file), problems, ())
+    tell(compile(text, str(file), "exec"), text.encode(), str(file), problems, ())
     return len(list(problems))
 
 
