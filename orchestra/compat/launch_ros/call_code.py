@@ -157,10 +157,10 @@ class Code:
         lines += self.others
         taking = "\n  ".join(lines)
         leaves = targets(self._leaves)
-        making = "\n ".join([*self._asked_again(), f"{leaves} = leaves" if leaves else ""])
+        making = "\n ".join([*self._asked_again(), f"{leaves} = leaves" if leaves else "", *fields])
         text = (
             f"def take(given, call):\n try:\n  {taking}\n except unusual: return None\n return ({leaves})\n"
-            f"def make(leaves, call):\n {making}\n return nothing | {{{', '.join(fields)}}}\n"
+            f"def make(leaves, call):\n fields = nothing.copy()\n {making}\n return fields\n"
         )
         exec(compile(text, _WRITTEN, "exec"), self._known)  # noqa: S102 - names that are made here
         return Form(self._known["take"], self._known["make"], skeleton)

@@ -12,12 +12,12 @@ from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
 from orchestra.compat.launch.substitutions.launch_configuration import PERFORM, LaunchConfiguration
 from orchestra.compat.launch_ros.call_code import Code, targets
-from orchestra.compat.launch_ros.call_texts import Read, Texts, is_mixed, is_plain, mixed, sure
+from orchestra.compat.launch_ros.call_texts import Read, Texts, is_mixed, is_plain, sure
 from orchestra.compat.launch_ros.parameter_descriptions import ParameterFile, ParameterValue
 from orchestra.compat.launch_ros.plain_parameters import (
-    NO_PARAMETER,
     SCALARS,
     entries,
+    file_at,
     file_of,
     held_of,
     parameter_of,
@@ -28,12 +28,11 @@ from orchestra.compat.launch_ros.plain_parameters import (
 from orchestra.compat.launch_ros.plain_texts import (
     UnusualError,
     copied,
-    entity,
     left,
+    mixed,
     plain_text,
-    standing_at,
 )
-from orchestra.description.parts import LateParam, LateRemap, Param, Remap, late
+from orchestra.description.parts import LateParam, LateRemap, late
 from orchestra.description.text import matched_words
 
 if TYPE_CHECKING:
@@ -91,10 +90,10 @@ class _Reader(Texts):
                 how, field, empty = series[name]
                 read: Callable[..., Read] = getattr(self, how)
                 skeleton[name], made = read(var, value, name)
-                fields.append(f"{field!r}: {made if value else self._code.constant(empty)}")
+                fields.append(f"fields[{field!r}] = {made if value else self._code.constant(empty)}")
             elif isinstance(reader, str):
                 skeleton[name], made = self.text(0, var, value, (name,))
-                fields.append(f"{reader!r}: {made}")
+                fields.append(f"fields[{reader!r}] = {made}")
             else:
                 skeleton[name] = self._code.leaf(var)
                 if reader is not left:
@@ -117,7 +116,7 @@ class _Reader(Texts):
                 own = self._code.leaf(item_var)
             else:
                 own, file = self.text(1, item_var, item, path)
-                part = _param({"from_": file}, f"standing_at(call, {self._code.constant(path)})")
+                part = f"file_at({file}, call, {self._code.constant(path)})"
             skeleton.append(own)
             made.append(part)
         return skeleton, f"({''.join(f'{item}, ' for item in made if item)})"
@@ -126,21 +125,15 @@ class _Reader(Texts):
         """Read a list of pairs."""
         skeleton, made = [], []
         for index, (rule_var, rule) in enumerate(self._code.items(0, var, value)):
-            taken = self._code.items(1, rule_var, rule)
-            if all(map(is_plain, rule)):
-                skeleton.append(tuple([self.word(2, side_var) for side_var, _ in taken]))
-                texts = ", ".join([side_var for side_var, _ in taken])
-                at = self._code.constant((name, index))
-                made.append(f"late(LateRemap, ({texts}, rule_of, call, {at}))")
-                continue
             sides = [
-                self.text(2, side_var, side, (name, index, number))
-                for number, (side_var, side) in enumerate(taken)
+                (self.word(2, side_var), side_var)
+                if is_plain(side)
+                else self.text(2, side_var, side, (name, index, number))
+                for number, (side_var, side) in enumerate(self._code.items(1, rule_var, rule))
             ]
             skeleton.append(tuple([side for side, _ in sides]))
-            (_, from_), (_, to) = sides
-            beside = f"standing_at(call, {self._code.constant((name,))})"
-            made.append(f"entity(Remap, {{'from_': {from_}, 'to': {to}}}, {beside})")
+            texts, at = ", ".join([text for _, text in sides]), self._code.constant((name, index))
+            made.append(f"late(LateRemap, ({texts}, rule_of, call, {at}))")
         return skeleton, f"({''.join(f'{item}, ' for item in made)})"
 
     def words(self, var: str, value: list[Any], name: str) -> Read:
@@ -167,11 +160,6 @@ class _Reader(Texts):
         skeleton, made_of = {}, []
         for item_var, key, value in self._code.entries(1, var, items):
             name, at = self._code.constant(key), self._code.constant(path)
-            held = self._held(2, item_var, value)
-            if held is not None:
-                skeleton[key], made = held
-                made_of.append(f"late(LateParam, ({name}, {made}, parameter_of, call, {at}, around))")
-                continue
             if type(value) is ParameterValue:
                 self._code.exactly(2, item_var, ParameterValue)
                 made = self._code.new(1)[0]
@@ -180,9 +168,10 @@ class _Reader(Texts):
                 skeleton[key] = self._code.leaf(item_var)
                 made_of.append(made)
                 continue
-            skeleton[key], made = self._value(2, item_var, value, (*path, key))
-            written = {"name": f"words({name}, False, call, {at})", "value": made}
-            made_of.append(_param(written, f"standing_at(call, {at})"))
+            skeleton[key], made = self._held(2, item_var, value) or self._value(
+                2, item_var, value, (*path, key)
+            )
+            made_of.append(f"late(LateParam, ({name}, {made}, parameter_of, call, {at}, around))")
         return skeleton, ", ".join(made_of)
 
     def _held(self, level: int, var: str, value: Any) -> Read | None:
@@ -215,8 +204,8 @@ class _Reader(Texts):
 
     def _read_into(self, var: str, name: str, reader: Any, fields: list[str]) -> None:
         """Have a keyword read as `read` does."""
-        if "**more" not in fields:
-            fields.append("**more")
+        if "fields |= more" not in fields:
+            fields.append("fields |= more")
             self._code.others.append("more, kept = {}, given.copy()")
             self._code.leaf("more")
         self._code.others += [
@@ -225,24 +214,16 @@ class _Reader(Texts):
         ]
 
 
-def _param(written: dict[str, str], beside: str) -> str:
-    """Return what makes a parameter of these expressions."""
-    fields = ", ".join(f"{name!r}: {written.get(name, repr(value))}" for name, value in NO_PARAMETER.items())
-    return f"entity(Param, {{{fields}}}, {beside})"
-
-
 _SERIES: Final = frozenset({list, tuple})
 _SEVERAL: Final = 2
 _NAMES: Final[dict[str, Any]] = {
     "LaunchConfiguration": LaunchConfiguration,
     "LateParam": LateParam,
     "LateRemap": LateRemap,
-    "Param": Param,
-    "Remap": Remap,
     "around": ((), "", ""),
     "copied": copied,
-    "entity": entity,
     "entries": entries,
+    "file_at": file_at,
     "file_of": file_of,
     "held_of": held_of,
     "late": late,
@@ -252,7 +233,6 @@ _NAMES: Final[dict[str, Any]] = {
     "plain_text": plain_text,
     "rule_of": rule_of,
     "scalars": SCALARS,
-    "standing_at": standing_at,
     "sure": sure,
     "typed_of": typed_of,
     "unusual": (KeyError, UnusualError, ValueError),

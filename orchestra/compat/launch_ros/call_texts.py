@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
 from orchestra.compat.launch.substitutions.launch_configuration import LaunchConfiguration
-from orchestra.compat.launch_ros import plain_texts
 from orchestra.compat.launch_ros.plain_texts import UnusualError
 
 if TYPE_CHECKING:
@@ -114,6 +113,5 @@ def is_mixed(value: Any) -> bool:
     )
 
 
-mixed: Final = plain_texts.mixed  # what the code of forms calls
 _SERIES: Final = frozenset({list, tuple})
 _SEVERAL: Final = 2

@@ -19,13 +19,13 @@ from orchestra.compat.launch_ros.plain_texts import (
 from orchestra.compat.place import Arguments, argument
 from orchestra.compat.refusing import is_lost
 from orchestra.description.parts import LateParam, LateRemap, Param, Remap, late
-from orchestra.description.text import matched_words, new_constant, new_template, new_words
+from orchestra.description.text import Template, matched_words, new_constant, new_template, new_words
 from orchestra.description.written import escaped
 
 if TYPE_CHECKING:
     from orchestra.compat.launch_ros.plain_texts import Reader
     from orchestra.compat.place import Way
-    from orchestra.description.text import Part, Template
+    from orchestra.description.text import Part
     from orchestra.location import Span
 
 
@@ -45,13 +45,17 @@ def parameters(field: str) -> Reader:
                 made.append(file_of(item))
                 own.append(item)
             else:
-                file = plain_text(item, call, path)
-                made.append(_param({"from_": file}, standing_at(call, path)))
+                made.append(file_at(plain_text(item, call, path), call, path))
                 own.append(copied(item))
         fields[field] = tuple(made)
         kept[name] = own
 
     return reader
+
+
+def file_at(file: Template, call: Arguments, path: tuple[Way, ...]) -> Param:
+    """Return a parameter file that an argument of a call holds."""
+    return _param({"from_": file}, standing_at(call, path))
 
 
 def file_of(item: ParameterFile) -> Param:
@@ -93,14 +97,13 @@ def remaps(name: str, value: Any, call: Arguments, fields: dict[str, Any], kept:
     for index, rule in enumerate(value):
         if type(rule) is not tuple or len(rule) != _SIDES:
             raise UnusualError
-        source, target = rule
-        if type(source) is type(target) is str and "$" not in (both := source + target) and "\\" not in both:
-            made.append(late(LateRemap, (source, target, rule_of, call, (name, index))))
-            own.append(rule)
-            continue
-        beside = standing_at(call, (name,))
-        from_, to = plain_text(source, call, (name, index, 0)), plain_text(target, call, (name, index, 1))
-        made.append(entity(Remap, {"from_": from_, "to": to}, beside))
+        sides = [
+            side
+            if type(side) is str and "$" not in side and "\\" not in side
+            else plain_text(side, call, (name, index, number))
+            for number, side in enumerate(rule)
+        ]
+        made.append(late(LateRemap, (*sides, rule_of, call, (name, index))))
         own.append(copied(rule))
     fields["remap"] = tuple(made)
     kept[name] = own
@@ -129,15 +132,12 @@ def entries(
             continue
         own[key] = value if kind in SCALARS else copied(value)
         held = value if kind in SCALARS else held_of(value)
-        if held is not None:
-            made.append(late(LateParam, (known + key, held, parameter_of, call, path, around)))
-            continue
         if kind is ParameterValue:
             made.append(typed_of(value, known + key, around, call, path))
             continue
-        called = _called(known + key, around, call, path)
-        read = value_of(value, call, (*path, known + key))
-        made.append(_param({"name": called, "value": read}, standing_at(call, path)))
+        if held is None:
+            held = value_of(value, call, (*path, known + key))
+        made.append(late(LateParam, (known + key, held, parameter_of, call, path, around)))
     return own
 
 
@@ -157,26 +157,26 @@ def _called(
 
 
 def _param(fields: dict[str, Any], beside: dict[str, Any]) -> Param:
-    made: Param = entity(Param, NO_PARAMETER | fields, beside)
+    made: Param = entity(Param, _NO_PARAMETER | fields, beside)
     return made
 
 
 def parameter_of(row: tuple[Any, ...]) -> tuple[dict[str, Any], dict[str, Any]]:
-    """Return the fields of a parameter whose value is known, and what is beside them."""
+    """Return the fields of a parameter whose value is known, or is a text, and what is beside them."""
     name, value, _, call, path, around = row
     called = _called(name, around, call, path)
-    read = new_constant(value, argument(call.place, (*path, name)))
-    return NO_PARAMETER | {"name": called, "value": read}, standing_at(call, path)
+    read = value if isinstance(value, Template) else new_constant(value, argument(call.place, (*path, name)))
+    return _NO_PARAMETER | {"name": called, "value": read}, standing_at(call, path)
 
 
 def rule_of(row: tuple[Any, ...]) -> tuple[dict[str, Any], dict[str, Any]]:
-    """Return the fields of a rule of two texts, and what is beside them."""
-    source, target, _, call, path = row
-    fields = {
-        "from_": matched_words(source, False, call, (*path, 0)),  # type: ignore[arg-type] # its groups are paths
-        "to": matched_words(target, False, call, (*path, 1)),  # type: ignore[arg-type] # as above
-    }
-    return fields, standing_at(call, path[:1])
+    """Return the fields of a rule by its sides, and what is beside them."""
+    *sides, _, call, path = row
+    from_, to = [
+        matched_words(side, False, call, (*path, number)) if type(side) is str else side  # type: ignore[arg-type] # its groups are paths
+        for number, side in enumerate(sides)
+    ]
+    return {"from_": from_, "to": to}, standing_at(call, path[:1])
 
 
 def value_of(value: Any, call: Arguments, path: tuple[Way, ...]) -> Any:
@@ -206,4 +206,4 @@ _SIDES: Final = 2
 _FILE: Final = ("param_file",)
 _TYPES: Final = (None, str, bool, int, float)
 SCALARS: Final = frozenset({str, bool, int, float})
-NO_PARAMETER: Final = Param._unwritten()
+_NO_PARAMETER: Final = Param._unwritten()
