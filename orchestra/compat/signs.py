@@ -43,7 +43,10 @@ _CLOSING: Final = frozenset((b")", b"]", b"}"))
 _ODD: Final = (b"\t", b"\r", b"\f", b"\v")  # blanks
 _HANDLERS: Final = (b"nProcess", b"nShutdown", b"nExecution")  # behind the first letter, which is rare
 # Two dictionaries side by side in a list of parameters, and where such a list begins.
-_SIDE_BY_SIDE: Final = pattern(rb"parameters\s{0,4}=\s{0,4}\[[^\]]{0,800}\}\s{0,80},\s{0,80}\{")
+_SIDE_BY_SIDE: Final = pattern(
+    rb"parameters\s{0,4}=\s{0,4}\[(?:[^\]]{0,800}|[^\[\]]{0,800}(?:\[[^\[\]]{0,400}\][^\[\]]{0,800}){1,20})"
+    rb"\}\s{0,80},\s{0,80}\{"
+)
 _PARAMETERS: Final = pattern(rb"parameters\s{0,4}=\s{0,4}\[")
 # What tells of the names in it: texts, which of them are keys, and brackets.
 _IN_LIST: Final = pattern(rb"""(?:'([^'\\\n]*)'|"([^"\\\n]*)")\s*(:)?|#[^\n]*|[\[\]{}]""")

@@ -220,3 +220,8 @@ def test_a_file_is_sound_when_every_look_has_found_nothing() -> None:
     assert compiled.is_sound
     compiled.told["idle"] = True
     assert not compiled.is_sound
+
+
+def test_dictionaries_with_lists_in_them_are_side_by_side_as_well() -> None:
+    assert gives_twice(b"parameters=[{'odom': 1, 'b': [1, 2]}, {'odom': False}]")
+    assert not gives_twice(b"parameters=[{'odom': 1, 'b': [1, 2]}, {'other': False}]")
