@@ -10,7 +10,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from orchestra.compat.launch.conditions import IfCondition
-from orchestra.compat.launch.substitutions import LaunchConfiguration, PathJoinSubstitution
+from orchestra.compat.launch.substitutions import (
+    LaunchConfiguration,
+    PathJoinSubstitution,
+)
 from orchestra.compat.launch_ros import plain_components, plain_nodes
 from orchestra.compat.launch_ros.actions import Node
 from orchestra.compat.launch_ros.call_forms import form_of
@@ -18,10 +21,12 @@ from orchestra.compat.launch_ros.descriptions import ComposableNode
 from orchestra.compat.place import Arguments, Place
 from orchestra.description.text import Constant, Template
 from tests.compat.contexts import loading
+from tests.compat.python_plans import of_python
 from tests.compat.test_plain_nodes import _ARGUMENTS, _BY_NAME, _OF_COMPONENTS, _made, _told
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
+    from pathlib import Path
 
     from orchestra.compat.launch_ros.made_later import Usual
 
@@ -209,6 +214,34 @@ def test_a_copy_of_a_variable_is_a_variable() -> None:
     assert taken
     assert is_taken
     assert _told(copied) == _told(model)
+
+
+_VALUES = (
+    *("(default, 'b')", "[default, 'b']", "default", "[x, 'b']", "x", "('a',)", "['a', 'b']", "[]", "[1, 2]"),
+    *("[1, 2.5]", "'a'", "'5'", "5", "True", "{'c': 1}", "[TextSubstitution(text='5')]", "[default]"),
+    *("TextSubstitution(text='5')", "ParameterValue('5', value_type=str)", "PathJoinSubstitution([x, 'a'])"),
+)
+
+
+@pytest.mark.parametrize("like", _VALUES)
+def test_values_of_another_kind_are_what_they_are(
+    like: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A list of texts is a list, and one with a substitution among them one text, whatever has been learned."""
+    body = f"""
+        from launch_ros.parameter_descriptions import ParameterValue
+        x, default = LaunchConfiguration('x', default='1'), LaunchConfiguration('x', default='1')
+        values = [lambda: {like}] * 40 + [{", ".join(f"lambda: {value}" for value in _VALUES)}]
+        return LaunchDescription(
+            [Node(executable='/bin/true', parameters=[{{'p': value()}}]) for value in values]
+        )
+    """
+    monkeypatch.setattr(plain_nodes.USUAL, "_forms", {})
+    monkeypatch.setattr(plain_nodes.USUAL, "_seen", {})
+    with_forms = of_python(tmp_path, body)
+    monkeypatch.setattr(plain_nodes.USUAL, "_forms", {})
+    monkeypatch.setattr(type(plain_nodes.USUAL), "_learn", lambda *_: None)
+    assert with_forms.content == of_python(tmp_path, body).content
 
 
 def test_all_of_it_stands_where_it_is_written() -> None:

@@ -196,6 +196,7 @@ class _Reader(Texts):
             return self.text(level, var, value, path)
         made = self._code.new(1)[0]
         self._code.others += [
+            f"if held_of({var}) is not None: return None",
             f"{made} = value_of({var}, call, {self._code.constant(path)})",
             f"{var} = copied({var})",
         ]
