@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
 from orchestra.compat.launch.substitutions.launch_configuration import PERFORM, LaunchConfiguration
 from orchestra.compat.launch_ros.call_code import Code, targets
-from orchestra.compat.launch_ros.call_texts import Read, Texts, is_mixed, is_plain, sure
+from orchestra.compat.launch_ros.call_texts import Read, Texts, is_mixed, is_plain, known, sure
 from orchestra.compat.launch_ros.parameter_descriptions import ParameterFile, ParameterValue
 from orchestra.compat.launch_ros.plain_parameters import (
     SCALARS,
@@ -192,7 +192,7 @@ class _Reader(Texts):
 
     def _value(self, level: int, var: str, value: Any, path: _Path) -> Read:
         """Read the value of a parameter that takes a visit to know."""
-        if type(value) is LaunchConfiguration or is_mixed(value):
+        if (type(value) is LaunchConfiguration and known(value) is not None) or is_mixed(value):
             return self.text(level, var, value, path)
         made = self._code.new(1)[0]
         self._code.others += [
