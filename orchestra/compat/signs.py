@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from bisect import bisect_left
 from functools import cache
 from itertools import chain, compress, repeat
 from operator import attrgetter, is_
@@ -42,11 +43,8 @@ _ITERATORS: Final = frozenset({"filter", "map", "zip"})
 _CLOSING: Final = frozenset((b")", b"]", b"}"))
 _ODD: Final = (b"\t", b"\r", b"\f", b"\v")  # blanks
 _HANDLERS: Final = (b"nProcess", b"nShutdown", b"nExecution")  # behind the first letter, which is rare
-# Two dictionaries side by side in a list of parameters, and where such a list begins.
-_SIDE_BY_SIDE: Final = pattern(
-    rb"parameters\s{0,4}=\s{0,4}\[(?:[^\]]{0,800}|[^\[\]]{0,800}(?:\[[^\[\]]{0,400}\][^\[\]]{0,800}){1,20})"
-    rb"\}\s{0,80},\s{0,80}\{"
-)
+# What is between two dictionaries side by side, and where a list of parameters begins.
+_SIDE_BY_SIDE: Final = pattern(rb"\}\s{0,80},\s{0,80}\{")
 _PARAMETERS: Final = pattern(rb"parameters\s{0,4}=\s{0,4}\[")
 # What tells of the names in it: texts, which of them are keys, and brackets.
 _IN_LIST: Final = pattern(rb"""(?:'([^'\\\n]*)'|"([^"\\\n]*)")\s*(:)?|#[^\n]*|[\[\]{}]""")
@@ -159,9 +157,22 @@ def has_event_functions(_code: CodeType, source: bytes) -> bool:
 
 def gives_twice(source: bytes) -> bool:
     """Return whether two dictionaries in a list of parameters may both have a value for one name."""
-    if _SIDE_BY_SIDE.search(source) is None or (b"},\n" not in source and b"}, {" not in source):
+    if b"},\n" not in source and b"}, {" not in source:
         return False
-    return any(_has_twice(source, found.end()) for found in _PARAMETERS.finditer(source))
+    begins = [found.end() for found in _PARAMETERS.finditer(source)]
+    return _has_side_by_side(source, begins) and any(_has_twice(source, begin) for begin in begins)
+
+
+def _has_side_by_side(source: bytes, begins: list[int]) -> bool:
+    """Return whether two dictionaries stand side by side in one of the lists that begin there."""
+    for found in _SIDE_BY_SIDE.finditer(source) if begins else ():
+        at = found.start()
+        index = bisect_left(begins, at)
+        if index:
+            begin = begins[index - 1]
+            if source.count(b"]", begin, at) <= source.count(b"[", begin, at):  # the list has no end yet
+                return True
+    return False
 
 
 def _has_twice(source: bytes, begin: int) -> bool:
